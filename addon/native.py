@@ -145,7 +145,7 @@ def refusals():
 
 def fault(error):
     """The sentence about an error that nothing foresaw, with a report to send."""
-    return importlib.import_module(f"{load().__name__}.unexpected").told(error)
+    return importlib.import_module(f"{load().__name__}.core.unexpected").told(error)
 
 
 def sentence(error):

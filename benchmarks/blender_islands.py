@@ -55,8 +55,8 @@ def pack():
 
 def measured(holomorph, surface, obj):
     """The quality of the active UV map."""
-    from holomorph.overlap import overlapping_part
-    from holomorph.quality import Quality
+    from holomorph.quality.overlap import overlapping_part
+    from holomorph.quality.quality import Quality
 
     uv = np.empty(2 * len(obj.data.loops), np.float32)
     obj.data.uv_layers.active.data.foreach_get("uv", uv)

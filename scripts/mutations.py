@@ -86,12 +86,12 @@ MUTATIONS = (
         ("sums-cut", "(a - (sum - taken)) + (b - taken)", "b - taken", DIGITS),
     )
     | of(
-        PACKAGE + "certificate.py",
+        PACKAGE + "forms/certificate.py",
         ("slack-none", "SLACK = 2.0**-50", "SLACK = 0.0", BOUNDS),
         ("slack-tenth", "SLACK = 2.0**-50", "SLACK = 0.1 * 2.0**-50", BOUNDS),
     )
     | of(
-        PACKAGE + "balls.py",
+        PACKAGE + "moduli/balls.py",
         ("balls-rounding", "ROUNDING = 2.0**-50", "ROUNDING = 2.0**-60", BALLS),
         ("balls-tenth", "ROUNDING = 2.0**-50", "ROUNDING = 0.1 * 2.0**-50", BALLS),
         ("balls-quotient", "self.error + np.abs(quotient) * other.error", "self.error", BALLS),
@@ -142,27 +142,27 @@ MUTATIONS = (
         ("evening-power", "kUsualPower = 0.6", "kUsualPower = 0.9", LOOKS),
     )
     | of(
-        PACKAGE + "verdicts.py",
+        PACKAGE + "quality/verdicts.py",
         ("unseen", "UNSEEN = 0.3", "UNSEEN = 0.6", EVENED),
         ("same-size", "SAME_SIZE = 1.1 ", "SAME_SIZE = 1.2 ", VERDICT),
         ("worst-part", "ranks.max() > rank", "ranks.min() > rank", VERDICT),
     )
     | of(
-        PACKAGE + "sizing.py",
+        PACKAGE + "maps/sizing.py",
         ("like-size", "LIKE_SIZE = 1.095", "LIKE_SIZE = 1.19", SIZING),
     )
     | of(
-        PACKAGE + "map_choice.py",
+        PACKAGE + "maps/map_choice.py",
         ("even", "EVEN = 2.0", "EVEN = 4.0", LOOKS),
         ("good-islands", "GOOD, FLAT = 0.8, 0.3", "GOOD, FLAT = 8.0, 0.3", LOOKS),
     )
     | of(
-        PACKAGE + "appearance.py",
+        PACKAGE + "quality/appearance.py",
         ("seams-free", "SEAM = 0.5 ", "SEAM = 0.05 ", LOOKS),
         ("shear-free", "SHEAR = 2.0", "SHEAR = 0.2", LOOKS),
     )
     | of(
-        PACKAGE + "copies.py",
+        PACKAGE + "mesh/copies.py",
         ("copies", "SINGLE = 2.0**-22", "SINGLE = 2.0**-18", PARTS),
         ("copies-tenth", "SINGLE = 2.0**-22", "SINGLE = 0.1 * 2.0**-22", PARTS),
     )
@@ -174,7 +174,7 @@ MUTATIONS = (
     )
     | of(ROOM + "mesh/continuations.cpp", ("slivers-as-others", "? 2 : 0;  // what", "? 0 : 0;  // what", SLIVERS))
     | of(ROOM + "islands/cuts_to_disks.cpp", ("paths-stop", "kShortest = 1e-12", "kShortest = 0", SLIVERS))
-    | of(PACKAGE + "cut_open.py", ("paths-stop-at-places", "SHORTEST = 1e-12", "SHORTEST = 0.0", SLIVERS))
-    | of(PACKAGE + "hard_edges.py", ("slivers-own-normals", "[surface._native.sliver_owners()]", "", SLIVERS))
-    | of(PACKAGE + "island_map.py", ("same-place", "SAME = 1e-5", "SAME = 1e-6", SLIVERS))
+    | of(PACKAGE + "mesh/cut_open.py", ("paths-stop-at-places", "SHORTEST = 1e-12", "SHORTEST = 0.0", SLIVERS))
+    | of(PACKAGE + "cutting/hard_edges.py", ("slivers-own-normals", "[surface._native.sliver_owners()]", "", SLIVERS))
+    | of(PACKAGE + "cutting/island_map.py", ("same-place", "SAME = 1e-5", "SAME = 1e-6", SLIVERS))
 )

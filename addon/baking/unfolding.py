@@ -57,7 +57,7 @@ def _flat(part):
         return None
     if found is None or found.cost > MOST_COST:
         return None
-    return found.uv if found.quality.overlapping_part <= native.load().appearance.ROUNDING else None
+    return found.uv if found.quality.overlapping_part <= native.load().quality.appearance.ROUNDING else None
 
 
 def _projected(context, joined, piece):

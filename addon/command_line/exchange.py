@@ -100,7 +100,7 @@ def write(path, forms=False, texture=False):
     forms : whether the maps of single forms are written, too; texture : whether what ours show is, instead
     """
     _prepare(bpy.data.objects, forms, texture)  # those of instanced collections, too, which are in no view layer
-    with native.load().whole_file.folder_beside(path) as folder:
+    with native.load().files.whole_file.folder_beside(path) as folder:
         _export(path, folder / path.name)
         if not (folder / path.name).is_file():
             raise ExchangeError(f"{path}: Blender did not write it")

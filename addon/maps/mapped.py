@@ -116,7 +116,7 @@ class Mapper:
             return list(solved)
         surfaces = [component.surface for one in solved.values() for component in one.done]
         self._area = sum(surface.area for surface in surfaces)
-        self._wanted = native.load().sizing.usual_density(surfaces)
+        self._wanted = native.load().maps.sizing.usual_density(surfaces)
         return sorted(solved, key=lambda index: -max((part.area for part in solved[index].done), default=0.0))
 
     def __call__(self, solved, options, progress=None):
@@ -210,7 +210,7 @@ def _form_map(component, options, progress):
         component.structure,
         forms.coefficients(component, options),
         evenness=0.0 if is_slow else options.tiling.evenness,
-        progress=native.load().progress.scaled(progress, 1.0, 1.0),
+        progress=native.load().core.progress.scaled(progress, 1.0, 1.0),
     )
 
 

@@ -33,7 +33,7 @@ def packed(context, mapped):
 
 def cuts(parts):
     """(#S, 2) vertices of the mesh, of the edges along which these parts of it were cut: two boundaries have them."""
-    ends = np.concatenate([part.vertex_index[native.load().edges.boundary_edges(part)] for part in parts])
+    ends = np.concatenate([part.vertex_index[native.load().mesh.edges.boundary_edges(part)] for part in parts])
     rows, count = np.unique(np.sort(ends, axis=1), axis=0, return_counts=True)
     return rows[count > 1]
 

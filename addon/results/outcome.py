@@ -75,7 +75,7 @@ class Outcome:
         found, whole = stored.verdict(entry), entry["whole"]["text"]
         told = f"{whole}. {found.text}" if whole else found.text
         (self.notes if found.is_fit else self.problems).append(f"{obj.name}: {told}")
-        limit = native.load().verdicts.OVERLAPPING[0]
+        limit = native.load().quality.verdicts.OVERLAPPING[0]
         overlapping = [
             str(index)
             for index, part in enumerate(entry["components"], 1)

@@ -22,7 +22,7 @@ def read_file_values(image):
     """`read_pixels` of the values in the image's file, turned as its EXIF data say, not as they are converted for
     rendering: 16 bits and reals in sRGB are, and colours are multiplied by alpha. What was painted or generated has no
     file. @throws ValueError where it is too large"""
-    reader = native.load().picture_values
+    reader = native.load().files.picture_values
     reader.check_size(image.name, *image.size)
     if image.source != "FILE" or image.is_dirty:
         return read_pixels(image)

@@ -182,7 +182,9 @@ def _marks(mesh, mark):
 
 def _edges_between(mesh, vertex_pairs):
     """(#mesh edges,) bool: the edges whose vertices are one of the pairs."""
-    keys, wanted = (native.load().edges.edge_keys(e, len(mesh.vertices)) for e in (_edge_vertices(mesh), vertex_pairs))
+    keys, wanted = (
+        native.load().mesh.edges.edge_keys(e, len(mesh.vertices)) for e in (_edge_vertices(mesh), vertex_pairs)
+    )
     return np.isin(keys, wanted)
 
 

@@ -60,7 +60,7 @@ class Work:
 
     def part(self, begin, end):
         """`ask` for a part of the work."""
-        return native.load().progress.scaled(self.ask, begin, end)
+        return native.load().core.progress.scaled(self.ask, begin, end)
 
 
 def solved(task, ask):

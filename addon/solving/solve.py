@@ -112,9 +112,8 @@ def solve(task, progress=None):
     for part in parts:
         share = len(part.face_index) / total
         make = functools.partial(_make, holomorph, surface, polygons.vertices, part)
-        solved.append(
-            _solve_component(holomorph, make, part, chosen, holomorph.progress.scaled(progress, done, done + share))
-        )
+        shown = holomorph.core.progress.scaled(progress, done, done + share)
+        solved.append(_solve_component(holomorph, make, part, chosen, shown))
         done += share
     return SolvedObject(surface, polygons, tuple(solved), time.perf_counter() - start)
 
@@ -149,7 +148,7 @@ def _solve_component(holomorph, make, part, chosen, progress):
 
 
 def _make(holomorph, surface, vertices, part, keywords, note, progress):
-    target, scaled = part, holomorph.progress.scaled
+    target, scaled = part, holomorph.core.progress.scaled
     if choices.name_vertices(keywords) and choices.has_copies(part):
         keywords = choices.in_part(keywords, part)
     elif choices.name_vertices(keywords):

@@ -23,9 +23,9 @@ class CutMesh:
     @property
     def irregular(self):
         """How many vertices inside have another number of edges than `REGULAR`, or two as in the middle of a side."""
-        sides = native.load().edges.polygon_sides(self)
+        sides = native.load().mesh.edges.polygon_sides(self)
         keys, first, count = np.unique(
-            native.load().edges.edge_keys(sides, len(self.vertices)), return_index=True, return_counts=True
+            native.load().mesh.edges.edge_keys(sides, len(self.vertices)), return_index=True, return_counts=True
         )
         ends = sides[first]
         edges = np.bincount(ends.ravel(), minlength=len(self.vertices))

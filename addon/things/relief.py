@@ -22,8 +22,8 @@ def heights_of(pixels, weights):
         heights = np.clip(colours @ weights, 0, 1)
     else:
         channels = np.moveaxis(colours, 2, 0)
-        heights = native.load().picture_values.brightness(*channels) if len(channels) == 3 else channels[0]
-    return native.load().relief.checked_heights(heights)
+        heights = native.load().files.picture_values.brightness(*channels) if len(channels) == 3 else channels[0]
+    return native.load().tiles.relief.checked_heights(heights)
 
 
 def turned_over(polygons, uv):
@@ -55,15 +55,15 @@ class RaisingWork(parts.PartsWork):
 
     def skip(self, part):
         self.skipped += 1
-        self.found.append(native.load().relief.plain(part))
+        self.found.append(native.load().tiles.relief.plain(part))
 
     def work(self):
         super().work()
         if self.problem:
             return
-        shells = importlib.import_module(f"{native.load().__name__}.shells")
+        shells = importlib.import_module(f"{native.load().__name__}.tiles.shells")
         self.inside_out = len(shells.inside_out(self.parts))
-        made = native.load().relief.joined(self.found)
+        made = native.load().tiles.relief.joined(self.found)
         if not self.ask(parts.FOUND, "crossings"):
             raise native.load().Cancelled("cancelled during the search for crossing triangles")
         made.safe_depth  # noqa: B018  which is kept
@@ -87,14 +87,14 @@ def sentence(relief, millimetres, work):
         told.append(f"inside out: {work.inside_out} closed parts; recalculate their normals")
     rows, columns = work.heights.shape
     if rows != columns:
-        told.append(native.load().relief.stretched_sentence(columns, rows))
+        told.append(native.load().tiles.relief.stretched_sentence(columns, rows))
     if relief.is_full:
         told.append(
             f"up to {relief.error * relief.depth * millimetres:.2g} mm off: allow more triangles to follow the picture"
         )
     if len(relief.crossings):
         safe = relief.safe_depth * millimetres
-        least = relief.depth * native.load().relief.LEAST_PART * millimetres
+        least = relief.depth * native.load().tiles.relief.LEAST_PART * millimetres
         told_of = f"up to {safe:.2g} mm deep it does not" if safe else f"at {least:.2g} mm it still does"
         told.append(f"it crosses itself in {len(np.unique(relief.crossings)):,} triangles: {told_of}")
     return "; ".join(told)

@@ -12,60 +12,62 @@ the other a; the period matrix is its integrals over the b. `*(p dx + q dy) = p 
 Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Surfaces (2003).
 """
 
-from . import starting  # noqa: I001, F401 -- before NumPy is loaded
-from . import arrangement, distortion, layout, report
+from .core import starting  # noqa: I001, F401 -- before NumPy is loaded
+from .maps import arrangement, report
+from .quality import distortion
+from .packing import layout
 from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
-from .automatic_map import automatic_map
-from .automatic_maps import automatic_maps
-from .automatic_structure import AnyStructure, automatic_structure
-from .bounded import BoundedStructure
-from .cells import Cells
-from .certificate import Certificate
-from .checks import SOLVERS
-from .closed import ConformalStructure
-from .coarse_places import CoarsePlace, coarse_places
-from .cones import cut_to_cones
-from .conformal_image import conformal_image
-from .conformal_map import ConformalMap, conformal_map
-from .curve_periods import curve_period_matrix
-from .cut import cut_along
-from .disk import disk_map, free_boundary_map, rectangle_map, triangle_map
-from .disk_islands import disk_islands
-from .double import double_cover, symmetrised
-from .equivalence import Equivalence, conformally_equivalent
-from .fundamental_domain import FundamentalDomain
-from .height_image import height_image
-from .holes import punch_holes
-from .igusa import IgusaInvariants, igusa_invariants
-from .image_lattice import ImageLattice, image_lattice
-from .island_map import Islands, island_map
-from .islands import islands
-from .levels import LevelOfDetail
-from .lines import Lines
-from .log_map import log_map
-from .map import Map, form_map
-from .mixed import Mixed
-from .narrow_bounds import Refinement
-from .placement import Frame, frame, place
-from .places import Places
-from .plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
-from .pole_structure import PoleStructure
-from .progressive import ProgressiveMesh
-from .quality import Quality
-from .relief import Relief
-from .repairs import Cut, Refused, Repairs
-from .period_matrix import PeriodMatrix
-from .siegel import SiegelReduction, siegel_reduction
-from .solver_report import MemoryPlan, Residuals, SolverReport
-from .structure import conformal_structure
-from .surface import Surface
-from .symmetries import Automorphisms, automorphisms
-from .theta_constants import Hyperelliptic, hyperelliptic
-from .tiled_surface import TiledSurface
-from .tiling import Tiler, place_poles
-from .tilings import PlacedPoles, Rounding, Tiling
-from .verdicts import UNEVEN, Verdict, overall, verdict
-from .zeros import Zeros
+from .maps.automatic_map import automatic_map
+from .maps.automatic_maps import automatic_maps
+from .maps.automatic_structure import AnyStructure, automatic_structure
+from .forms.bounded import BoundedStructure
+from .tiles.cells import Cells
+from .forms.certificate import Certificate
+from .mesh.checks import SOLVERS
+from .forms.closed import ConformalStructure
+from .quality.coarse_places import CoarsePlace, coarse_places
+from .cutting.cones import cut_to_cones
+from .maps.conformal_image import conformal_image
+from .moduli.conformal_map import ConformalMap, conformal_map
+from .moduli.curve_periods import curve_period_matrix
+from .plane.cut import cut_along
+from .plane.disk import disk_map, free_boundary_map, rectangle_map, triangle_map
+from .cutting.disk_islands import disk_islands
+from .mesh.double import double_cover, symmetrised
+from .moduli.equivalence import Equivalence, conformally_equivalent
+from .forms.fundamental_domain import FundamentalDomain
+from .tiles.height_image import height_image
+from .mesh.holes import punch_holes
+from .moduli.igusa import IgusaInvariants, igusa_invariants
+from .tiling.image_lattice import ImageLattice, image_lattice
+from .cutting.island_map import Islands, island_map
+from .cutting.islands import islands
+from .levels.levels import LevelOfDetail
+from .tiles.lines import Lines
+from .forms.log_map import log_map
+from .maps.map import Map, form_map
+from .maps.mixed import Mixed
+from .forms.narrow_bounds import Refinement
+from .packing.placement import Frame, frame, place
+from .tiles.places import Places
+from .plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
+from .forms.pole_structure import PoleStructure
+from .levels.progressive import ProgressiveMesh
+from .quality.quality import Quality
+from .tiles.relief import Relief
+from .mesh.repairs import Cut, Refused, Repairs
+from .forms.period_matrix import PeriodMatrix
+from .moduli.siegel import SiegelReduction, siegel_reduction
+from .forms.solver_report import MemoryPlan, Residuals, SolverReport
+from .forms.structure import conformal_structure
+from .mesh.surface import Surface
+from .moduli.symmetries import Automorphisms, automorphisms
+from .moduli.theta_constants import Hyperelliptic, hyperelliptic
+from .tiles.tiled_surface import TiledSurface
+from .tiling.tiling import Tiler, place_poles
+from .tiling.tilings import PlacedPoles, Rounding, Tiling
+from .quality.verdicts import UNEVEN, Verdict, overall, verdict
+from .forms.zeros import Zeros
 
 __all__ = [
     "AnyStructure",

@@ -7,16 +7,17 @@ import os
 import sys
 from pathlib import Path
 
-from . import Error, Surface, Verdict, __version__, formats, whole_file
+from . import Error, Surface, Verdict, __version__
 from .batch import mapping
 from .batch.recipe import Maps, Recipe
-from .checks import SOLVERS, check_options, check_thresholds
-from .compare_command import compare
-from .console import Parser, ended, failed, tell, warn
-from .map_choice import MAIN_MAPS
-from .relief_command import relief
-from .report import repairs_report, whole_report
-from .value import quoted
+from .commands.compare_command import compare
+from .commands.console import Parser, ended, failed, tell, warn
+from .commands.relief_command import relief
+from .core.value import quoted
+from .files import formats, whole_file
+from .maps.map_choice import MAIN_MAPS
+from .maps.report import repairs_report, whole_report
+from .mesh.checks import SOLVERS, check_options, check_thresholds
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3
 

@@ -3,12 +3,12 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import arrays
 from ._native import InvalidMesh
-from .array_types import Reals
-from .form_structure import FormStructure
-from .surface import Surface
-from .value import quoted
+from .core import arrays
+from .core.array_types import Reals
+from .core.value import quoted
+from .forms.form_structure import FormStructure
+from .mesh.surface import Surface
 
 SQUARES = ((0.96, 0.94, 0.91), (0.84, 0.43, 0.20))  # the two colours of a checker
 PLAIN = (0.75, 0.75, 0.78)

@@ -20,8 +20,8 @@ from .drawing import (
     require_positions,
     upright,
 )
-from .form_structure import FormStructure
-from .surface import Surface
+from .forms.form_structure import FormStructure
+from .mesh.surface import Surface
 
 try:
     from matplotlib import colormaps

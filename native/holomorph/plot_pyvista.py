@@ -5,7 +5,7 @@ the picture there; `show(screenshot="picture.png")` writes it."""
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .array_types import Reals
+from .core.array_types import Reals
 from .drawing import (
     DECADES,
     DENSITY,
@@ -19,8 +19,8 @@ from .drawing import (
     require_positions,
     upright,
 )
-from .form_structure import FormStructure
-from .surface import Surface
+from .forms.form_structure import FormStructure
+from .mesh.surface import Surface
 
 try:
     import pyvista

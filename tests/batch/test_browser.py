@@ -10,7 +10,7 @@ from urllib.parse import unquote
 import pytest
 from any_names import any_names
 from batch_runs import BALANCED, SECONDS, library, run
-from holomorph.console import shown
+from holomorph.commands.console import shown
 
 BROWSERS = ("chromium-headless-shell", "chromium", "google-chrome")
 BROWSER = next((found for found in map(shutil.which, BROWSERS) if found), None)

@@ -12,7 +12,7 @@ from holomorph.batch import places, sources
 from holomorph.batch.journal import Journal
 from holomorph.batch.plan import Plan, of_source
 from holomorph.batch.recipe import Recipe
-from holomorph.console import shown
+from holomorph.commands.console import shown
 
 
 @pytest.fixture(scope="module")

@@ -10,9 +10,9 @@ import holomorph
 import numpy as np
 import pytest
 from batch_runs import BALANCED, outputs, run, torus_obj
-from holomorph import formats
 from holomorph.batch import picture
-from holomorph.map_choice import EVENNESS
+from holomorph.files import formats
+from holomorph.maps.map_choice import EVENNESS
 
 EVERYTHING = """
 [maps]

@@ -51,7 +51,7 @@ def neighbour(obj, vertex, steps=1):
 @pytest.fixture
 def stages(monkeypatch):
     """The stages that the library went through, and "placing" where it placed poles."""
-    noted, kind = [], native.load().results.Tiler
+    noted, kind = [], native.load().forms.results.Tiler
 
     def noting(progress):
         return lambda fraction, stage: (noted.append(stage), progress(fraction, stage))[1]
@@ -67,7 +67,7 @@ def stages(monkeypatch):
         def move_poles(self, tiling, moves, *, progress):
             return super().move_poles(tiling, moves, progress=noting(progress))
 
-    monkeypatch.setattr(native.load().results, "Tiler", Noted)
+    monkeypatch.setattr(native.load().forms.results, "Tiler", Noted)
     return noted
 
 

@@ -70,7 +70,7 @@ def test_pictures_are_turned_as_the_command_turns_them(turn, tmp_path):
     (tmp_path / "a.png").write_bytes(png(values, 0, 8, chunk(b"eXIf", exif)))
     _, found = read(tmp_path / "a.png")
     stored = values[:, :, 0] / 255
-    assert np.abs(found - holomorph.picture_values.upright(stored, turn)).max() < 1e-6
+    assert np.abs(found - holomorph.files.picture_values.upright(stored, turn)).max() < 1e-6
     assert found.shape == ((12, 8) if turn >= 5 else (8, 12))
 
 

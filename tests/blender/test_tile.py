@@ -39,8 +39,8 @@ stored_text = module("results.stored")
 @pytest.fixture
 def calls(monkeypatch):
     """What the library was asked for, one entry for each tiling; more poles than it finds enough are not tried."""
-    monkeypatch.setattr(native.load().map_choice, "UNEVEN", np.inf)
-    noted, kind = [], native.load().results.Tiler
+    monkeypatch.setattr(native.load().maps.map_choice, "UNEVEN", np.inf)
+    noted, kind = [], native.load().forms.results.Tiler
 
     class Noted(kind):
         def __init__(self, surface, poles, **options):
@@ -52,7 +52,7 @@ def calls(monkeypatch):
             noted[-1].pop("progress")
             return super().tile(tiles, **options)
 
-    monkeypatch.setattr(native.load().results, "Tiler", Noted)
+    monkeypatch.setattr(native.load().forms.results, "Tiler", Noted)
     return noted
 
 
@@ -212,7 +212,7 @@ def test_the_vertex_group_says_where_poles_may_be(monkeypatch):
         asked.append((poles, None if allowed is None else np.flatnonzero(allowed).tolist()))
         raise native.load().TopologyError("noted")
 
-    monkeypatch.setattr(native.load().results, "Tiler", note)
+    monkeypatch.setattr(native.load().forms.results, "Tiler", note)
     with pytest.raises(RuntimeError, match="noted"):
         tile(pole_group="Hidden")
     assert sorted(asked, key=str) == [("auto", list(range(count // 2))), (0, None)]

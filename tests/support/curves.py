@@ -4,8 +4,8 @@ and Thomae's formula, which gives theta constants without periods."""
 from itertools import combinations
 
 import numpy as np
-from holomorph.siegel import siegel_reduction
-from holomorph.theta_constants import even_theta_constants
+from holomorph.moduli.siegel import siegel_reduction
+from holomorph.moduli.theta_constants import even_theta_constants
 
 
 def circle(count, radius=1.0, turn=0.0):

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import families
 import numpy as np
 from holomorph import Error, _native, conformal_map, conformal_structure
-from holomorph.refined_triangles import areas
+from holomorph.forms.refined_triangles import areas
 from solved import surface_of
 
 TOLERANCE = 0.05  # of periods: the meshes of a pair are two discretisations of one surface

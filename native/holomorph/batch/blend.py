@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from .. import whole_file
 from .._native import InvalidMesh
+from ..files import whole_file
 from .errors import UsageError
 from .status import DONE, REFUSED
 

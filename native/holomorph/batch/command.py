@@ -7,8 +7,8 @@ import re
 from functools import partial
 from pathlib import Path
 
-from ..console import Parser, failed, shown, tell
-from ..verdicts import LEVELS
+from ..commands.console import Parser, failed, shown, tell
+from ..quality.verdicts import LEVELS
 from . import blend, progress, recipe, sources, workers
 from .errors import EngineError, StorageError, UsageError
 from .journal import Journal, stored, storing

@@ -13,8 +13,8 @@ import shutil
 import uuid
 from pathlib import Path
 
-from .. import whole_file
-from ..verdicts import LEVELS
+from ..files import whole_file
+from ..quality.verdicts import LEVELS
 from .errors import StorageError, UsageError
 from .status import ALL
 

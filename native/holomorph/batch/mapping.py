@@ -5,13 +5,13 @@ from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
-from .. import arrangement
 from .._native import Error, TopologyError
-from ..automatic_maps import automatic_maps
-from ..automatic_structure import automatic_structure
-from ..given_vertices import on_part
-from ..map import Map
-from ..report import part_report, refused_report, skipped_report
+from ..maps import arrangement
+from ..maps.automatic_maps import automatic_maps
+from ..maps.automatic_structure import automatic_structure
+from ..maps.map import Map
+from ..maps.report import part_report, refused_report, skipped_report
+from ..mesh.given_vertices import on_part
 
 
 @dataclass(eq=False)

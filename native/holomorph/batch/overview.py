@@ -8,8 +8,8 @@ import json
 from pathlib import Path
 from urllib.parse import quote
 
-from ..console import shown
-from ..verdicts import LEVELS, Verdict
+from ..commands.console import shown
+from ..quality.verdicts import LEVELS, Verdict
 from .journal import noted
 from .status import DONE
 

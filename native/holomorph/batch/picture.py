@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import checker, indexed_png
+from ..files import checker, indexed_png
 
 SIZE = 192  # pixels of a side; pages show it smaller, which smooths it
 MARGIN = 6.0  # pixels

@@ -4,7 +4,7 @@ import importlib.util
 import sys
 import time
 
-from ..console import say
+from ..commands.console import say
 
 EVERY = 10.0  # seconds between lines
 

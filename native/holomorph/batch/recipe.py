@@ -12,11 +12,12 @@ from pathlib import Path
 
 import tomllib
 
-from .. import formats, textures, tiling_options, whole_file
-from ..checks import SOLVERS, as_float
-from ..map_choice import EVENNESS, MAIN_MAPS
-from ..tiling_options import MOST_POLES
-from ..value import quoted, shortened
+from ..core.value import quoted, shortened
+from ..files import formats, textures, whole_file
+from ..maps.map_choice import EVENNESS, MAIN_MAPS
+from ..mesh.checks import SOLVERS, as_float
+from ..tiling import tiling_options
+from ..tiling.tiling_options import MOST_POLES
 from .errors import UsageError
 
 BOUNDARIES = ("natural", "double_cover", "free")

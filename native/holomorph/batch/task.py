@@ -8,10 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import ProgressiveMesh, Surface, __version__, formats, textures
+from .. import ProgressiveMesh, Surface, __version__
 from .._native import Error, InvalidMesh
-from ..conformal_image import conformal_image
-from ..report import repairs_report, whole_report
+from ..files import formats, textures
+from ..maps.conformal_image import conformal_image
+from ..maps.report import repairs_report, whole_report
 from . import blend, mapping, picture
 from .recipe import Recipe
 from .status import DONE, REFUSED

@@ -14,7 +14,8 @@ from multiprocessing.connection import Connection
 
 import numpy as np
 
-from .. import Surface, conformal_structure, unexpected
+from .. import Surface, conformal_structure
+from ..core import unexpected
 from .errors import StorageError
 from .journal import publish, storing
 from .status import CRASHED, MEMORY

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from families import cylinder, geodesic_sphere, torus, united
 from holomorph import arrangement, automatic_maps, form_map
-from holomorph.arrangement import Arrangement, arranged, arranged_form, on_grid, square, unit_length
-from holomorph.distortion import drawn_densities
+from holomorph.maps.arrangement import Arrangement, arranged, arranged_form, on_grid, square, unit_length
+from holomorph.quality.distortion import drawn_densities
 from solved import surface_of
 
 PARTS = {

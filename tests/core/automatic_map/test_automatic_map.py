@@ -9,9 +9,9 @@ import holomorph
 import numpy as np
 import pytest
 from families import cylinder, geodesic_sphere, hemisphere, torus, united
-from holomorph import map_choice as automatic
 from holomorph.__main__ import main
-from holomorph.quality import Quality
+from holomorph.maps import map_choice as automatic
+from holomorph.quality.quality import Quality
 
 SHARED = {"hand": "hand_lowres_b1.obj", "pretzel": "double-torus.obj"}
 FAMILIES = {

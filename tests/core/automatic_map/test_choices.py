@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from families import cylinder, geodesic_sphere, hemisphere, punctured_torus, torus, united
 from holomorph import InvalidMesh, TopologyError, automatic_maps, automatic_structure, conformal_image
-from holomorph.edges import around_boundary, boundary_edges
+from holomorph.mesh.edges import around_boundary, boundary_edges
 from plane_meshes import corners_of, grid, wavy
 from solved import surface_of
 

@@ -12,7 +12,7 @@ import families
 import numpy as np
 import pytest
 from holomorph import Surface, automatic_map
-from holomorph.distortion import quantiles
+from holomorph.quality.distortion import quantiles
 from repository import ROOT
 from shared_data import shared_folder
 from solved import surface_of

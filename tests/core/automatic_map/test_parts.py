@@ -8,8 +8,8 @@ import holomorph
 import numpy as np
 import pytest
 from holomorph import Cancelled, Surface, automatic_maps
-from holomorph.copies import copies
-from holomorph.side_by_side import LARGE, side_by_side
+from holomorph.core.side_by_side import LARGE, side_by_side
+from holomorph.mesh.copies import copies
 from solved import surface_of
 
 SIZES = [5, 700, 30, LARGE + 1, 12, LARGE, 90]

@@ -4,11 +4,11 @@ import families
 import numpy as np
 import pytest
 from holomorph import Quality, Surface, automatic_map, automatic_maps, automatic_structure
-from holomorph.arrangement import arranged
-from holomorph.distortion import drawn_densities
-from holomorph.map_choice import UNEVEN, Undecided
-from holomorph.sizing import LIKE_SIZE, best_window, is_in, window_around
-from holomorph.stretched import MOST_STRETCHED, stretched
+from holomorph.maps.arrangement import arranged
+from holomorph.maps.map_choice import UNEVEN, Undecided
+from holomorph.maps.sizing import LIKE_SIZE, best_window, is_in, window_around
+from holomorph.maps.stretched import MOST_STRETCHED, stretched
+from holomorph.quality.distortion import drawn_densities
 from solved import surface_of
 
 LIKE = 1.1  # largest over smallest median density of parts whose squares have one size

@@ -6,7 +6,7 @@ import sys
 
 import families
 import pytest
-from holomorph.console import INTERRUPTED
+from holomorph.commands.console import INTERRUPTED
 from repository import SUPPORT
 from solved import surface_of
 
@@ -35,7 +35,15 @@ def assert_one_sentence(done, status, words):
 
 
 @pytest.mark.parametrize(
-    "when", ["numpy", "holomorph._native", "holomorph.surface", "holomorph.batch.mapping", "holomorph.console", "zlib"]
+    "when",
+    [
+        "numpy",
+        "holomorph._native",
+        "holomorph.mesh.surface",
+        "holomorph.batch.mapping",
+        "holomorph.commands.console",
+        "zlib",
+    ],
 )
 def test_interrupted_while_it_starts(when, mesh):
     """At the import of a module, the last of which NumPy needs."""
@@ -125,7 +133,7 @@ def test_little_memory(megabytes, mesh, tmp_path):
 
 def test_what_nothing_foresaw(tmp_path):
     """One sentence, a status of its own, and a report to send, that says where it happened."""
-    code = "import sys; from holomorph import console; sys.exit(console.ended(lambda: {}['no such\\nkey']))"
+    code = "import sys; from holomorph.commands import console; sys.exit(console.ended(lambda: {}['no such\\nkey']))"
     command = [sys.executable, "-c", code, "batch", "a b.obj"]
     environment = os.environ | {"TMPDIR": str(tmp_path)}
     done = subprocess.run(command, env=environment, stderr=subprocess.PIPE, text=True, timeout=SECONDS)
@@ -137,7 +145,7 @@ def test_what_nothing_foresaw(tmp_path):
 
 
 def test_what_nothing_foresaw_where_no_report_can_be_written(tmp_path):
-    code = "import sys; from holomorph import console; sys.exit(console.ended(lambda: 1 / 0))"
+    code = "import sys; from holomorph.commands import console; sys.exit(console.ended(lambda: 1 / 0))"
     limited = ["bash", "-c", f'ulimit -f 0; exec {sys.executable} -c "$1"', "-", code]
     done = subprocess.run(
         limited, env=os.environ | {"TMPDIR": "/dev/full"}, stderr=subprocess.PIPE, text=True, timeout=SECONDS

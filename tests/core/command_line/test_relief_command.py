@@ -8,8 +8,8 @@ import pytest
 from heights import dots
 from holomorph import Surface, height_image
 from holomorph.__main__ import main
-from holomorph.relief import volume
-from holomorph.shells import outward
+from holomorph.tiles.relief import volume
+from holomorph.tiles.shells import outward
 from solved import surface_of
 
 PIL = pytest.importorskip("PIL.Image")
@@ -103,7 +103,7 @@ def test_it_tells_how_far_triangles_are_off(folder, capsys):
 
 
 def test_parts_without_a_tiling_stay_plain(folder, capsys, monkeypatch):
-    from holomorph import relief_command
+    from holomorph.commands import relief_command
 
     torus = surface_of(families.torus(20, 12, shape="triangles"))
     both = np.concatenate([10 * torus.vertices, 10 * torus.vertices + (0, 0, 50)])

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import slow_path
 from holomorph import SolverError, Surface, _native, conformal_structure, report
-from holomorph.certificate import certain_text, entry_bounds
+from holomorph.forms.certificate import certain_text, entry_bounds
 from small_families import SMALL
 from solved import surface_of
 

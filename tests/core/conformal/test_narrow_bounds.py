@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from equivalence import distance_or_mirrored
 from holomorph import TopologyError, conformal_structure
-from holomorph.narrow_bounds import narrow
+from holomorph.forms.narrow_bounds import narrow
 from shared_data import complex_matrix, reference_values, shared_folder
 from solved import surface_of
 

@@ -15,7 +15,7 @@ from holomorph import (
     rectangle_map,
     triangle_map,
 )
-from holomorph.verdicts import SHEARED, UNSEEN, verdict
+from holomorph.quality.verdicts import SHEARED, UNSEEN, verdict
 from measured import Measured
 from solved import surface_of
 

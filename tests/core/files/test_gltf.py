@@ -7,8 +7,9 @@ import struct
 import families
 import numpy as np
 import pytest
-from holomorph import Surface, checker, indexed_png
+from holomorph import Surface
 from holomorph.__main__ import main
+from holomorph.files import checker, indexed_png
 from mesh_files import obj
 from solved import solved, surface_of
 

@@ -11,7 +11,7 @@ import zlib
 import numpy as np
 import pytest
 from holomorph import height_image
-from holomorph.picture_values import MOST_PIXELS, brightness, orientation, upright
+from holomorph.files.picture_values import MOST_PIXELS, brightness, orientation, upright
 
 Image = pytest.importorskip("PIL.Image")
 ImageOps = pytest.importorskip("PIL.ImageOps")

@@ -7,7 +7,8 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from heights import DEPTH, dots
-from holomorph import Surface, printing
+from holomorph import Surface
+from holomorph.files import printing
 from tiled_families import tiled
 
 CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"

@@ -8,7 +8,7 @@ from contextlib import nullcontext
 
 import families
 import pytest
-from holomorph import whole_file
+from holomorph.files import whole_file
 from solved import surface_of
 
 OLD, NEW = b"old", b"n" * 100_000
@@ -61,7 +61,8 @@ WRITERS = {
 LIMITED = """
 import contextlib, resource, signal, sys
 from pathlib import Path
-from holomorph import ProgressiveMesh, Surface, whole_file
+from holomorph import ProgressiveMesh, Surface
+from holomorph.files import whole_file
 path, mesh = sys.argv[1:]
 def write_half(place):  # and tells nobody
     with contextlib.suppress(OSError), open(place, "wb", buffering=0) as file:

@@ -5,8 +5,8 @@ import holomorph
 import numpy as np
 import pytest
 from holomorph import Surface
-from holomorph.edges import polygon_sides
-from holomorph.island_map import island_map
+from holomorph.cutting.island_map import island_map
+from holomorph.mesh.edges import polygon_sides
 from solids import around, bracket, can, cone
 from solved import surface_of
 

@@ -5,12 +5,12 @@ import holomorph
 import numpy as np
 import pytest
 from holomorph import Surface, automatic_map, automatic_maps
-from holomorph.arrangement import Arrangement, arranged
-from holomorph.island_cuts import sides_of
-from holomorph.pieces import Piece, cut_apart
-from holomorph.quality import Quality
-from holomorph.report import part_report
-from holomorph.tubes import closed, opened
+from holomorph.cutting.island_cuts import sides_of
+from holomorph.maps.arrangement import Arrangement, arranged
+from holomorph.maps.pieces import Piece, cut_apart
+from holomorph.maps.report import part_report
+from holomorph.maps.tubes import closed, opened
+from holomorph.quality.quality import Quality
 from solved import surface_of
 
 EXACT = 1e-12

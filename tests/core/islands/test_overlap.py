@@ -4,7 +4,7 @@ import families
 import numpy as np
 import pytest
 from holomorph import Surface, conformal_structure, free_boundary_map, islands
-from holomorph.overlap import MOST_ROWS, overlapping_part
+from holomorph.quality.overlap import MOST_ROWS, overlapping_part
 from solved import surface_of
 
 ROUNDING = 1e-9

@@ -5,7 +5,7 @@ import operator
 import numpy as np
 import pytest
 from flint import acb
-from holomorph.balls import Ball, product, total
+from holomorph.moduli.balls import Ball, product, total
 from interval_energies import exact  # and 200 bits
 
 NEAR = 0.1  # part of each bound that some true error exceeds

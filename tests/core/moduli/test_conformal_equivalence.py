@@ -18,7 +18,7 @@ from holomorph import (
     curve_period_matrix,
 )
 from holomorph.__main__ import main
-from holomorph.equivalence import AGREEMENT, VERDICTS
+from holomorph.moduli.equivalence import AGREEMENT, VERDICTS
 from known_matrices import BOLZA, BOLZA_AGAIN, LAWSON, SQUARES
 from mesh_files import obj
 from moebius_images import BLOCKS, moebius_image, twisted_block

@@ -256,7 +256,7 @@ def frames(corners):
 
 
 def test_a_map_that_does_not_fit_is_refused(monkeypatch):
-    monkeypatch.setattr(sys.modules["holomorph.conformal_map"], "MOST_RESIDUAL", 0.0)
+    monkeypatch.setattr(sys.modules["holomorph.moduli.conformal_map"], "MOST_RESIDUAL", 0.0)
     with pytest.raises(SolverError, match="no map was found"):
         conformal_map(*mapped(3)[:2])
 

@@ -9,8 +9,8 @@ import pytest
 import sextics
 from equivalence import distance
 from holomorph import SolverError, conformally_equivalent, curve_period_matrix
-from holomorph.igusa import invariants
-from holomorph.siegel import siegel_reduction
+from holomorph.moduli.igusa import invariants
+from holomorph.moduli.siegel import siegel_reduction
 from known_matrices import BOLZA, LAWSON
 
 

@@ -7,7 +7,7 @@ import pytest
 import regular_maps
 from curves import NATURAL
 from holomorph import TopologyError, conformal_structure, curve_period_matrix, hyperelliptic, siegel_reduction
-from holomorph.theta_constants import VANISHING, even_theta_constants
+from holomorph.moduli.theta_constants import VANISHING, even_theta_constants
 from solved import surface_of
 
 

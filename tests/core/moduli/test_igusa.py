@@ -9,8 +9,8 @@ import pytest
 import sextics
 from equivalence import random_symplectic
 from holomorph import TopologyError, conformal_structure, igusa_invariants
-from holomorph.igusa import enclosed, invariants
-from holomorph.siegel import moved, siegel_reduction
+from holomorph.moduli.igusa import enclosed, invariants
+from holomorph.moduli.siegel import moved, siegel_reduction
 from known_matrices import BOLZA, LAWSON
 from shared_data import complex_matrix, reference_surface, reference_values
 from solved import surface_of

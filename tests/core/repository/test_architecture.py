@@ -34,6 +34,11 @@ ROOM_BELOW = {
     "multiresolution": ["structure"],
     "bindings": ["tiles", "tiling", "moduli", "islands", "multiresolution"],
 }
+# The rooms of the package, each of which imports only earlier ones. What lies in the package itself begins with all.
+PACKAGE_ROOMS = (
+    *("core", "files", "mesh", "quality", "packing", "tiling", "forms", "plane", "cutting", "tiles", "maps", "moduli"),
+    *("levels", "commands", "batch", ""),
+)
 # Each room of the add-on, and the rooms that it may import directly or through them. "" is what lies in addon itself.
 ADDON_BELOW = {
     "": [],
@@ -116,8 +121,14 @@ def addon_room(path):
 
 def addon_imports(path, is_at_top=False):
     """The add-on's files that one of them imports, anywhere or where it is loaded."""
-    tree, found = ast.parse(path.read_text(encoding="utf-8")), []
-    for node in tree.body if is_at_top else ast.walk(tree):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    return local_imports(path, tree.body if is_at_top else ast.walk(tree))
+
+
+def local_imports(path, nodes):
+    """Files that relative imports among the nodes of a file name."""
+    found = []
+    for node in nodes:
         if isinstance(node, ast.ImportFrom) and node.level:
             folder = path.parents[node.level - 1].joinpath(*(node.module or "").split("."))
             names = [folder.with_suffix(".py")] if node.module else []
@@ -235,6 +246,24 @@ def test_the_package_knows_nothing_of_blender():
     wrong = {identify(path): {name.split(".")[0] for name in imports(path)} & blender for path in files}
     assert not {path: names for path, names in wrong.items() if names}
     assert not [identify(path) for path in files if any(IN_BLENDER.stem in name for name in imports(path))]
+
+
+def package_room(path):
+    return path.relative_to(FACADE).parts[0] if path.parent != FACADE else ""
+
+
+def test_package_rooms_are_listed():
+    assert {package_room(path) for path in python_files(FACADE)} == set(PACKAGE_ROOMS)
+
+
+def test_package_imports_go_down():
+    wrong = []
+    for path in python_files(FACADE):
+        room = PACKAGE_ROOMS.index(package_room(path))
+        for name in local_imports(path, ast.walk(ast.parse(path.read_text(encoding="utf-8")))):
+            if PACKAGE_ROOMS.index(package_room(name)) > room:
+                wrong.append(f"{identify(path)} imports {identify(name)}")
+    assert not wrong
 
 
 def test_addon_rooms_are_listed():

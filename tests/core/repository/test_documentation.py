@@ -151,7 +151,7 @@ def test_the_page_for_artists_needs_no_mathematics():
 def test_troubleshooting_quotes_what_is_said():
     files = [
         *(ROOT / "addon").rglob("*.py"),
-        *ROOT.glob("native/holomorph/*.py"),
+        *ROOT.glob("native/holomorph/**/*.py"),
         *ROOT.glob("native/src/tiling/**/*.cpp"),
     ]
     said = "\n".join(path.read_text("utf-8") for path in files).lower()

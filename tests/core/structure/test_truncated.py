@@ -3,7 +3,7 @@
 import holomorph
 import numpy as np
 import pytest
-from holomorph.truncated import TruncatedStructure, truncated
+from holomorph.forms.truncated import TruncatedStructure, truncated
 
 SAME = 1e-9  # two solves, or rounding
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from families import torus
 from holomorph import coarse_places, distortion
-from holomorph.edges import boundary_edges
-from holomorph.report import part_report
+from holomorph.maps.report import part_report
+from holomorph.mesh.edges import boundary_edges
 from plane_meshes import grid
 from solved import surface_of
 

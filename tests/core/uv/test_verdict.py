@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from holomorph import Surface, automatic_structure, form_map, overall, verdict
 from holomorph.__main__ import main
-from holomorph.report import part_report, whole_report
-from holomorph.verdicts import LEVELS, LOST, OVERLAPPING, SHEARED, UNEVEN
+from holomorph.maps.report import part_report, whole_report
+from holomorph.quality.verdicts import LEVELS, LOST, OVERLAPPING, SHEARED, UNEVEN
 from measured import Measured
 from mesh_files import obj
 from solved import solved, surface_of

@@ -1,0 +1,43 @@
+"""python -m holomorph compare A B"""
+
+import json
+
+from .. import Error, Surface
+from ..core.plain_data import plain
+from ..files import whole_file
+from ..moduli.equivalence import VERDICTS, conformally_equivalent
+from .console import Parser, failed, tell, warn
+
+EXIT_CODES = dict(zip(VERDICTS, (0, 6, 3, 4, 5), strict=True))
+"""The exit code of each verdict. 1: not compared, one sentence says why; 2: the command was misspelled."""
+
+
+def compare(arguments):
+    """Prints one sentence about two mesh files; the exit code is that of the verdict."""
+    codes = ", ".join(f"{code} {verdict}" for verdict, code in EXIT_CODES.items())
+    parser = Parser(
+        prog="python -m holomorph compare",
+        description="Decide whether there is a conformal map between two surfaces.",
+        epilog=f"Exit code: {codes}; 1 where a file cannot be compared.",
+    )
+    parser.add_argument("meshes", nargs=2, metavar="mesh", help="OBJ, OFF, PLY or STL file of one connected surface")
+    parser.add_argument("--report", metavar="FILE", help="write verdict, integer matrix and distances as JSON")
+    options = parser.parse_args(arguments)
+    try:
+        made = conformally_equivalent(*map(_surface, options.meshes))
+        if options.report:
+            whole_file.write(options.report, json.dumps(plain(vars(made)), indent=1, allow_nan=False).encode() + b"\n")
+    except (Error, OSError) as error:
+        return failed(1, error)
+    tell(made.sentence + "\n")
+    return EXIT_CODES[made.verdict]
+
+
+def _surface(path):
+    surface = Surface.read(path, strict=True)
+    warn(path, surface.repairs.notes)
+    try:
+        surface.require_connected()
+    except Error as error:
+        raise type(error)(f"{path}: {error}") from error
+    return surface

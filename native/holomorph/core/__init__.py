@@ -1,0 +1,1 @@
+"""What every other room needs: arrays, values, progress, threads."""

@@ -1,0 +1,108 @@
+"""Arrays from the caller, checked before they reach the native core."""
+
+import json
+from itertools import chain
+
+import numpy as np
+
+from .._native import InvalidMesh
+from .value import quoted
+
+
+def real(array, columns, name):
+    """`array` as C-contiguous float64 with `columns` columns."""
+    try:
+        result = numbers(array, name)
+    except ValueError as error:
+        raise InvalidMesh(str(error)) from error
+    if result.ndim != 2 or result.shape[1] != columns:
+        raise InvalidMesh(f"{name} has the shape {result.shape}; (rows, {columns}) is needed")
+    return result
+
+
+def numbers(array, name):
+    """`array` as C-contiguous float64. @throws ValueError if it is not an array of real numbers, or has masked ones"""
+    if np.ma.is_masked(array):
+        raise ValueError(f"{name} has masked entries")
+    if np.iscomplexobj(array):
+        raise ValueError(f"{name} has complex entries; real numbers are needed")
+    try:
+        return np.ascontiguousarray(array, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError) as error:  # the last for integers beyond all floats
+        raise ValueError(f"{name} is not an array of numbers: {quoted(array)}") from error
+
+
+def complex_numbers(array, name):
+    """A new array of complex numbers. @throws ValueError if it is none of numbers"""
+    try:
+        return np.array(array, dtype=np.complex128)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"{name} must be an array of numbers, not {quoted(array)}") from error
+
+
+def integer(array, name, dimensions=1, columns=None):
+    """`array` as C-contiguous int32 where it is that, else int64; anything but integers is refused, never rounded."""
+    try:
+        result = np.asarray(array)
+    except ValueError as error:
+        raise InvalidMesh(f"{name} is not an array of integers: {quoted(array)}") from error
+    if np.ma.is_masked(array):
+        raise InvalidMesh(f"{name} has masked entries")
+    _check_integers(result, name)
+    if result.ndim != dimensions or (columns is not None and result.shape[1] not in columns):
+        shape = " or ".join(f"(rows, {c})" for c in columns) if columns else f"of {dimensions} dimension(s)"
+        raise InvalidMesh(f"{name} has the shape {result.shape}; {shape} is needed")
+    return np.ascontiguousarray(result, dtype=np.int32 if result.dtype == np.int32 else np.int64)
+
+
+def _check_integers(array, name):
+    if array.dtype == np.uint64 and array.size and array.max() > np.iinfo(np.int64).max:
+        raise InvalidMesh(f"{name} has an entry beyond 64-bit integers")
+    if not (np.issubdtype(array.dtype, np.integer) or array.size == 0):
+        raise InvalidMesh(f"{name} has the type {array.dtype}; integers are needed")
+
+
+def polygons(faces):
+    """Corner vertices and face offsets of (#F, 3) or (#F, 4) integers, or of a list of lists of any sizes."""
+    faces = np.asarray(faces) if isinstance(faces, memoryview) else faces
+    if isinstance(faces, np.ndarray) and faces.dtype != object:
+        array = integer(faces, "faces", dimensions=2, columns=(3, 4))
+        kind = array.dtype if array.size <= np.iinfo(np.int32).max else np.int64  # too many are refused natively
+        return array.ravel(), np.arange(0, array.size + 1, array.shape[1], dtype=kind)
+    try:
+        faces = list(faces)
+        sizes = np.fromiter(map(len, faces), dtype=np.int64, count=len(faces))
+    except TypeError as error:
+        raise InvalidMesh(
+            "faces must be an integer array (rows, 3) or (rows, 4), or a list of lists of vertices"
+        ) from error
+    corners = integer(list(chain.from_iterable(faces)), "faces")
+    return corners, np.concatenate([[0], np.cumsum(sizes)])
+
+
+def frozen(array):
+    """The same array, read-only."""
+    array.setflags(write=False)
+    return array
+
+
+def packed(corner_data, corner_count):
+    """The type of one row in words, and all rows as bytes."""
+    rows = np.ascontiguousarray(corner_data)
+    if rows.dtype.kind not in "biufc":
+        raise InvalidMesh(f"corner_data has the type {rows.dtype}; numbers or booleans are needed")
+    if rows.ndim == 0 or len(rows) != corner_count:
+        raise InvalidMesh(f"corner_data has {len(rows) if rows.ndim else 0} rows for {corner_count} polygon corners")
+    return json.dumps([rows.dtype.str, rows.shape[1:]]), rows.tobytes()
+
+
+def unpacked(kind, data, corner_count):
+    """The rows that `packed` made into this type and these bytes, read-only."""
+    try:
+        name, shape = json.loads(kind)
+        dtype, shape = np.dtype(name), tuple(shape)
+        if dtype.kind not in "biufc" or not all(isinstance(n, int) and n >= 0 for n in shape):
+            raise ValueError(kind)
+        return frozen(np.frombuffer(data, dtype).reshape((corner_count, *shape)))
+    except (ValueError, TypeError, RecursionError) as error:
+        raise InvalidMesh("the progressive mesh is damaged: its corner data have an unknown type") from error

@@ -1,0 +1,1 @@
+"""Maps in pieces: cuts, hard edges, cones."""

@@ -1,0 +1,1 @@
+"""Harmonic and holomorphic one-forms, the structures that they make, and their certificates."""

@@ -1,0 +1,249 @@
+"""What the results of all kinds of surfaces have in common."""
+
+from __future__ import annotations
+
+import numbers
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import _native
+from ..core import arrays
+from ..core.array_types import Integers, Progress, Reals
+from ..core.newest import Newest
+from ..core.progress import scaled
+from ..core.solution import Solution
+from ..core.value import Value, counted
+from ..mesh.checks import checked_evenness, real_number
+from ..mesh.surface import Surface
+from ..quality.quality import Quality
+from ..tiling.tiling import Tiler
+from ..tiling.tiling_options import Poles, asked_poles
+from ..tiling.tilings import Tiling
+from .solver_report import Residuals, SolverReport
+
+PLACING = 0.6  # part of the work on a tiling, for finding the poles
+KEPT = 2  # tilings and their poles: more poles are tried where some are too few
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Structure(Value):
+    """Base of the results of `conformal_structure`. All arrays are read-only; the large ones are computed when first
+    used. Each kind of result adds its forms, its invariants and
+
+    uv(coefficients) : (#C, 2) UVs of a combination of `holomorphic_forms`, without a solve
+    balanced_coefficients() : those of the map that is shown first
+    form_count, coefficient_type : number and type of coefficients
+    description : one phrase that says what was made
+    map_kind : the `Map.kind` of their UVs
+    invariants() : the conformal invariants as plain data, for reports
+    """
+
+    residuals_kind = Residuals
+    _unpickled = ("_triangulation", "_tilers", "_tilings")
+
+    surface: Surface
+    solver: SolverReport
+    residuals: Residuals
+    timings: dict[str, float]
+    _solution: Solution
+    _component: Surface
+    _threads: int
+
+    def _facts(self):
+        return [self.description, counted(len(self._component.triangles), "triangle"), self.solver.name]
+
+    def __getstate__(self):
+        vars(self).update({name: getattr(self, name) for name in ("description", "flip_count", "_is_exact")})
+        return super().__getstate__()
+
+    @property
+    def _native(self):
+        return self._solution.native
+
+    def computed_by(self, compute: Callable[[], Structure]) -> Self:
+        """Notes the call that computes the result, for pickles, and returns the result."""
+        self._solution.compute = compute
+        return self
+
+    def of_copy(self, component: Surface) -> Self:
+        """The structure of a copy, with the same triangles and the same lengths up to one factor."""
+        return replace(self, surface=component, _component=component)
+
+    @cached_property
+    def edges(self) -> Integers:
+        """(#E, 2) vertices of the triangulation, lower first; forms are values on these. Its diagonals are flipped away
+        from poles."""
+        return self._of_surface(self._triangulation.edges)
+
+    @cached_property
+    def _triangulation(self):
+        return self._component._native
+
+    @cached_property
+    def flip_count(self) -> int:
+        """Edges flipped to make the intrinsic triangulation Delaunay."""
+        return self._native.flip_count()
+
+    @cached_property
+    def _is_exact(self):
+        """Whether the metric that invariants come from is that of the surface, without mollification."""
+        return self._native.mollification() == 0
+
+    def quality(self, uv: ArrayLike) -> Quality:
+        """`Quality` of a (#C, 2) UV map on the triangles of `edges`."""
+        return Quality.of(self._triangulation, self._checked_uv(uv), self._threads)
+
+    def tile(
+        self,
+        tiles: float | None = None,
+        density: float | None = None,
+        poles: Poles = "auto",
+        lattice: str | ArrayLike = "square",
+        direction: ArrayLike | str | None = None,
+        boundary: str = "automatic",
+        max_turn: float = 0.2,
+        turn: float | None = None,
+        max_added: float | None = None,
+        progress: Progress | None = None,
+        *,
+        evenness: float = 0.0,
+        size_counts: bool = False,
+        allowed: ArrayLike | None = None,
+        moves: Mapping[int, int] | None = None,
+        surface: Surface | None = None,
+    ) -> Tiling:
+        """A `Tiling`: a map of even density without visible seams, for textures that tile.
+
+        All jumps of the UVs are translations that leave the texture as it is. Poles, around which the texture closes up
+        by whole tiles, make the density even, and on surfaces with handles they move until the rounded form is
+        holomorphic (Jacobi inversion), so that the map is conformal and its periods are integers at once.
+
+        Parameters
+        ----------
+        tiles : tiles of the texture over the surface, at its median density; default: a number that suits the genus
+        density : tiles per unit of area, instead
+        poles : "auto" for none where the density is even without, else as many as it asks for, up to 16; a number; or a
+            list of vertices, which stay where they are. Two at least on a closed surface of genus 0
+        lattice : "square", "brick" (rows shifted by half), "hex", or a 2 x 2 matrix whose columns are the translations
+        direction : (3,) vector in space along which u runs, as far as it can; any where that is normal to a plane.
+            "upright" for rows that run level: v runs along +Z, as far as it can. turn : radians, rotates the texture
+            beside it; max_turn : radians by which the rounding may turn it away
+        boundary : "automatic", "straight" or "free", see `Tiler`
+        max_added : the largest `added_distortion` that is wanted; default any
+        evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Textures
+            look best at about 0.5. Fewer poles are placed for any evenness above 0
+        size_counts : whether the number of tiles counts more than a little shear, as where parts are to have one size
+        allowed, surface : as in `tiler`
+        moves : {index of a pole in the tiling: vertex} that it is moved to after the rounding, see `Tiler.move_poles`
+
+        Raises TopologyError for poles that do not fit, for fewer tiles than the surface needs (names how many are
+        enough), and for more added distortion than `max_added` (names what can be had). Poles are kept.
+        """
+        evenness = checked_evenness(evenness)
+        tiles = tiles if density is None else self._tiles_of(density, tiles)
+        placing, rounding = scaled(progress, 0.0, PLACING), scaled(progress, PLACING, 1.0)
+        options = {"boundary": boundary, "allowed": allowed, "evened": evenness > 0, "surface": surface}
+        tiler = self.tiler(poles, **options, progress=placing)
+        rounded = {"tiles": tiles, "lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn}
+        rounded |= {"max_added": max_added, "size_counts": size_counts}
+        made = self._rounded(tiler, rounded, evenness, rounding)
+        return tiler.move_poles(made, moves, progress=rounding) if moves else made
+
+    def _tiles_of(self, density, tiles):
+        if tiles is not None:
+            raise ValueError("give tiles or a density, not both")
+        return real_number(density, "density", positive=True) * self._component.area
+
+    def _rounded(self, tiler, options, evenness, progress):
+        """What `Tiler.tile` gives; the last tilings are kept, and evened for another evenness."""
+        key = tiler, *((name, _hashable(value)) for name, value in options.items())
+        made = self._tilings.get(key)
+        if made is None:
+            made = tiler.tile(**options, evenness=evenness, progress=progress)
+        elif made.evenness != evenness:
+            made = tiler.even(made, evenness, progress=progress)
+        return self._tilings.keep(key, made)
+
+    @cached_property
+    def _tilings(self):
+        return Newest(KEPT)
+
+    def tiler(
+        self,
+        poles: Poles = "auto",
+        *,
+        boundary: str = "automatic",
+        allowed: ArrayLike | None = None,
+        evened: bool = False,
+        surface: Surface | None = None,
+        progress: Progress | None = None,
+    ) -> Tiler:
+        """The `Tiler` of the surface; the last ones are kept, with the poles that they placed, until others are asked
+        for.
+
+        surface : the one whose vertices poles are named by, without its isolated vertices the same as was solved on;
+            default: the latter
+        """
+        surface = self._component if surface is None else surface
+        count, chosen = asked_poles(poles)
+        mask = None if allowed is None else np.asarray(allowed, bool).tobytes()
+        key = surface, count, tuple(chosen), str(boundary), mask, bool(evened)
+        tiler = self._tilers.get(key)
+        if tiler is None:
+            options = {"boundary": boundary, "allowed": allowed, "evened": bool(evened), "threads": self._threads}
+            tiler = Tiler(surface, poles, **options, progress=progress)
+        return self._tilers.keep(key, tiler)
+
+    @cached_property
+    def _tilers(self):
+        return Newest(KEPT)
+
+    def averaged_star(self, form: ArrayLike) -> Reals:
+        """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an
+        edge. It is not closed, so it has no well-defined integral; for comparison with `holomorphic_forms`."""
+        return _native.averaged_star(self._triangulation, self._checked_form(form))
+
+    def _checked_form(self, form):
+        form = arrays.numbers(form, "form")
+        if form.shape != (len(self.edges),):
+            raise ValueError(f"form has the shape {form.shape}; ({len(self.edges)},) is needed")
+        return form
+
+    def _checked_uv(self, uv):
+        uv = arrays.numbers(uv, "uv")
+        if uv.shape != (len(self._component.corner_vertices), 2):
+            raise ValueError(f"uv has the shape {uv.shape}; ({len(self._component.corner_vertices)}, 2) is needed")
+        return uv
+
+    def _at_vertices(self, values, missing=np.nan):
+        """Values at the component's vertices as values at the surface's, `missing` at isolated ones."""
+        if self._component is self.surface:
+            return values
+        result = np.full((self.surface.given_vertex_count, *values.shape[1:]), missing, dtype=values.dtype)
+        result[self._component.vertex_index] = values
+        return arrays.frozen(result)
+
+    def _of_surface(self, vertices):
+        """Vertices of the component as vertices of the surface, which may have isolated ones besides."""
+        return vertices if self._component is self.surface else arrays.frozen(self._component.vertex_index[vertices])
+
+
+def _hashable(value):
+    """An option of a tiling as a key."""
+    return value if value is None or isinstance(value, (str, numbers.Real)) else repr(np.asarray(value).tolist())
+
+
+def result(kind, surface, component, native, threads, **more):
+    """A `kind` of `Structure` made of what the native core computed, and `more` fields of that kind."""
+    seconds = dict(native.timings())
+    seconds["total"] = sum(seconds.values())
+    found = native.residuals()
+    residuals = kind.residuals_kind(**{entry.name: getattr(found, entry.name) for entry in fields(kind.residuals_kind)})
+    return kind(
+        surface, SolverReport.of(native.solver()), residuals, seconds, Solution(native), component, threads, **more
+    )

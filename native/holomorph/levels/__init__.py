@@ -1,0 +1,1 @@
+"""Progressive meshes and forms by levels."""

@@ -1,0 +1,149 @@
+"""Levels of detail of a progressive mesh, with UV maps that do not move from level to level."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import _native
+from .._native import InvalidMesh
+from ..core import arrays
+from ..core.array_types import Integers, Progress, Reals
+from ..core.value import Value, counted
+from ..forms.solver_report import SolverReport
+from ..mesh.checks import check_list, check_options
+from ..mesh.surface import Surface
+
+if TYPE_CHECKING:
+    from .progressive import ProgressiveMesh
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LevelOfDetail(Value):
+    """One level with the UV maps of the original.
+
+    surface : Surface, triangles; its vertices are some of the original's, by `vertex_index`, its triangles come from
+        the polygons `face_index`
+    uv : (#C, 2) or (#C, m, 2), as was given
+    corners : (#C,) polygon corner of the original whose data each corner has: at the same vertex, and on the same side
+        of the seams, as far as there is one
+    drift : (#V,) or (#V, m) distance of the UVs of each vertex from those that it has in the original
+    vertex_map : (#V of the original,) vertex of the level that each was collapsed into; -1 for isolated ones
+    solver : SolverReport of a harmonic map, else None
+    """
+
+    surface: Surface
+    uv: Reals
+    corners: Integers
+    drift: Reals
+    vertex_map: Integers
+    solver: SolverReport | None
+
+    def _facts(self):
+        return [
+            counted(len(self.surface.triangles), "triangle"),
+            f"largest drift {np.max(self.drift, initial=0.0):.2g}",
+        ]
+
+
+def levels_of_detail(
+    mesh: ProgressiveMesh,
+    uv: ArrayLike,
+    n_faces: Sequence[int],
+    *,
+    harmonic: bool = False,
+    solver: str = "auto",
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> tuple[LevelOfDetail, ...]:
+    """Levels with UV maps of the original, whose textures do not move from level to level.
+
+    A UV map of a holomorphic form jumps across its seams by translations. Every level gets a map with the same
+    periods over the lifted loops, whose seams are the images of the seams under the collapses: each vertex
+    keeps the UVs that it has in the original, exactly. With `harmonic` the map is then made the harmonic
+    one of these periods on the triangles of the level, which is the form that would be computed there; its
+    constant is such that it does not move on average, and `drift` tells how far each vertex moves.
+
+    Any other UV map is collapsed likewise: within its islands every vertex keeps its UVs.
+
+    Parameters
+    ----------
+    uv : (#C, 2) of the original's polygon corners, or (#C, m, 2) for several maps
+    n_faces : numbers of triangles, as in `level`; one level each
+    harmonic : whether to solve on each level; for one surface with handles or two boundary loops, and maps that are
+        translated across seams and have straight boundaries: v constant along each
+    solver, threads, progress : as in `holomorph.conformal_structure`, for `harmonic`
+
+    Returns
+    -------
+    tuple of LevelOfDetail
+
+    Raises
+    ------
+    InvalidMesh
+        if `uv` does not fit the corners or is not finite, or if `harmonic` finds a seam with a rotation or a scaling,
+        or a boundary that is not straight
+    TopologyError
+        if `harmonic` does not apply to the topology
+
+    Cost: linear in the number of corners; with `harmonic` 2m solves on each level.
+    """
+    threads = check_options(solver, threads)
+    uv, maps = _maps(uv, mesh._corner_count)
+    check_list(n_faces, "n_faces")
+    splits = [mesh._split_count(n) for n in n_faces]
+    collapsed = mesh._native.collapsed_corner_values(maps, splits)
+    levels = []
+    for index, (count, given) in enumerate(zip(splits, collapsed)):
+        surface, values, report = mesh._level(count), given.values, None
+        moves = np.zeros((len(surface.vertices), values.shape[1]))
+        if harmonic:
+            part = _part(progress, index, len(splits))
+            made = _native.harmonic_map(surface._native, values, solver, threads, part)
+            moves, report = made.moves, SolverReport.of(made.solver)
+            values = values + moves[surface.corner_vertices]
+        drift = np.linalg.norm(moves.reshape(len(moves), *uv.shape[1:]), axis=-1)
+        values = arrays.frozen(values.reshape(-1, *uv.shape[1:]))
+        vertex_map = arrays.frozen(mesh._map_of_original(count))
+        levels.append(LevelOfDetail(surface, values, given.corners, arrays.frozen(drift), vertex_map, report))
+    return tuple(levels)
+
+
+def level_corner_data(mesh: ProgressiveMesh, n_faces: int) -> NDArray[Any] | None:
+    """Rows of `corner_data` for the corners of ``level(n_faces)``, None if there are none: that of a corner of the
+    original at the same vertex and on the same side of all edges across which the data jump; where the vertex has
+    no corner on that side, that of the corner which the triangle had in the original."""
+    data = mesh.corner_data
+    if data is None:
+        return None
+    rows = np.ascontiguousarray(data).reshape(len(data), -1)
+    kinds = np.zeros(len(rows))
+    if rows.size:
+        rows = rows.view(np.dtype((np.void, rows.dtype.itemsize * rows.shape[1])))[:, 0]
+        kinds = np.unique(rows, return_inverse=True)[1].astype(float)
+    (level,) = mesh._native.collapsed_corner_values(kinds[:, None], [mesh._split_count(n_faces)])
+    return arrays.frozen(data[level.corners])
+
+
+def _maps(uv, corner_count):
+    """The array as given, and as one row of 2m numbers for each corner."""
+    uv = arrays.numbers(uv, "uv")
+    if uv.ndim not in (2, 3) or uv.shape[0] != corner_count or uv.shape[-1] != 2 or uv.size == 0:
+        wanted = f"({corner_count}, 2) or ({corner_count}, maps, 2)"
+        raise InvalidMesh(f"uv has the shape {uv.shape}; {wanted} is needed")
+    rows = np.ascontiguousarray(uv.reshape(corner_count, -1))
+    if not np.isfinite(rows).all():
+        corner = int(np.argmin(np.isfinite(rows).all(axis=1)))
+        raise InvalidMesh(f"uv of corner {corner} is not finite")
+    return uv, rows
+
+
+def _part(progress, index, count):
+    """The progress function of one of `count` equal parts."""
+    if progress is None:
+        return None
+    return lambda fraction, stage: progress((index + fraction) / count, stage)

@@ -1,0 +1,236 @@
+"""Progressive meshes: a small base mesh and a sequence of vertex splits that rebuilds the original exactly."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Sequence
+from functools import cached_property, partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import _native
+from .._native import InvalidMesh
+from ..core import arrays
+from ..core.array_types import FilePath, Integers, Progress
+from ..core.value import Value, quoted
+from ..files import checked_file
+from ..forms.bounded import BoundedStructure
+from ..forms.closed import ConformalStructure
+from ..forms.results import result
+from ..mesh.checks import as_float, check_memory_limit, check_options, check_thresholds, check_type
+from ..mesh.origin import Origin
+from ..mesh.surface import Surface
+from . import level_forms, levels
+from .splits import structured_splits
+
+ORDERS = ("quadric", "independent")
+
+
+class ProgressiveMesh(Value):
+    """The surface's triangulation as a base mesh and vertex splits (Gu, Wang, Yau 2003, section 3; Hoppe 1996,
+    doi:10.1145/237170.237216), down to a mesh in which no edge can be collapsed: 4 triangles for a sphere, at most 20
+    for a torus. Every level is a manifold of the same topology; vertices never move, and those of the boundary are
+    collapsed along it only.
+
+    Vertices of the levels are numbered base first, then in the order of the splits; triangles likewise, the left one
+    first. So those of a level are the first ones of every finer level. Polygons with more than three corners are cut
+    into triangles in the levels, and restored as they were.
+
+    Parameters
+    ----------
+    surface : Surface, with positions; of one or several components
+    corner_data : (#C, ...) numbers or booleans, one row per polygon corner; kept bit for bit
+    order : which edges are collapsed first: "quadric", by quadric error (Garland & Heckbert 1997,
+        doi:10.1145/258734.258849), for levels of detail; "independent", several times faster, by rounds in which
+        vertices that are pairwise not adjacent are collapsed along their shortest edges
+    progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
+
+    Raises
+    ------
+    InvalidMesh
+        if the surface is intrinsic, if its triangulated polygons have two edges with the same ends even after
+        diagonals are flipped, or if `corner_data` does not fit the corners.
+    Cancelled
+        if `progress` returned False
+    """
+
+    def __init__(
+        self,
+        surface: Surface,
+        *,
+        corner_data: ArrayLike | None = None,
+        order: str = "quadric",
+        progress: Progress | None = None,
+    ) -> None:
+        check_type(surface, Surface)
+        if order not in ORDERS:
+            raise ValueError(f"order is {quoted(order)}; one of {', '.join(map(repr, ORDERS))} is needed")
+        kind, data = "", b""
+        if corner_data is not None:
+            kind, data = arrays.packed(corner_data, len(surface.corner_vertices))
+        self._native = _native.ProgressiveMesh.make(surface._native, order, kind, data, progress)
+
+    @classmethod
+    def load(cls, path: FilePath) -> ProgressiveMesh:
+        """Reads what `save` wrote.
+
+        Raises
+        ------
+        InvalidMesh
+            if the file is missing, damaged or of another version; every count, index and split is checked.
+        """
+        mesh = cls.__new__(cls)
+        try:
+            mesh._native = _native.ProgressiveMesh.from_bytes(checked_file.read(path))
+            mesh.corner_data  # noqa: B018 - its type is checked where it is made
+        except OSError as error:
+            raise InvalidMesh(f"{os.fspath(path)}: {error.strerror}") from error
+        except (InvalidMesh, UnicodeDecodeError) as error:
+            raise InvalidMesh(f"{os.fspath(path)}: {error}") from error
+        return mesh
+
+    def save(self, path: FilePath) -> None:
+        """Writes one binary file: the base, the splits and their attributes, with a checksum at the end."""
+        checked_file.write(path, self._native.to_bytes())
+
+    def _facts(self):
+        return [f"{self._native.base_triangle_count} to {len(self._native.triangle_index)} triangles"]
+
+    def __getstate__(self):
+        return {"content": self._native.to_bytes()}
+
+    def __setstate__(self, state):
+        self._native = _native.ProgressiveMesh.from_bytes(state["content"])
+
+    @cached_property
+    def base(self) -> Surface:
+        """The coarsest level, a `Surface` of triangles."""
+        return self._level(0)
+
+    @cached_property
+    def splits(self) -> NDArray[np.void]:
+        """Structured array of the vertex splits, coarsest first.
+
+        v_s, v_t, v_l, v_r : vertices, v_t the new one; v_l or v_r is -1 where v_s v_t is on the boundary. The triangles
+            {v_s, v_t, v_l} and {v_t, v_s, v_r} are added, and those counter-clockwise from v_r to v_l around v_s move
+            to v_t
+        position : of v_t; v_s does not move
+        vertex : index of v_t in the original
+        triangles : indices of the left and the right triangle in the original triangulation, -1 where there is none
+        slots : the corner of the left triangle that is v_s, that of the right one that is v_t
+        corners : polygon corners of the original at the corners of both triangles, whose `corner_data` they have
+        """
+        return arrays.frozen(structured_splits(self._native, self._corners))
+
+    @cached_property
+    def _corners(self):
+        return self._native.original_corners()
+
+    @cached_property
+    def _faces(self):
+        """The original polygon of each triangle."""
+        offsets = self._native.face_offsets
+        if not len(offsets):
+            return self._native.triangle_index
+        return np.repeat(np.arange(len(offsets) - 1, dtype=np.int32), np.diff(offsets) - 2)[self._native.triangle_index]
+
+    @cached_property
+    def corner_data(self) -> NDArray[Any] | None:
+        """The rows given for the original's polygon corners; None if there were none; see `level_corner_data`."""
+        kind = self._native.corner_type
+        return arrays.unpacked(kind, self._native.corner_data, self._corner_count) if kind else None
+
+    # Defined in levels.py.
+    level_corner_data = levels.level_corner_data
+    levels_of_detail = levels.levels_of_detail
+
+    @property
+    def _corner_count(self):
+        offsets = self._native.face_offsets
+        return int(offsets[-1]) if len(offsets) else self._corners.size
+
+    def _split_count(self, n_faces):
+        if math.isnan(as_float(n_faces)):
+            raise ValueError(f"n_faces is {quoted(n_faces)}; a number of triangles is needed")
+        return self._native.split_count(int(max(0, min(n_faces, 2**62))))
+
+    def _level(self, splits):
+        level = self._native.level(splits)
+        vertices, faces = self._native.base_vertex_count + splits, len(level.triangles)
+        origin = Origin(
+            self._native.vertex_index[:vertices],
+            arrays.frozen(self._faces[:faces]),
+            arrays.frozen(self._corners[:faces].ravel()),
+        )
+        return Surface._of(level, origin)
+
+    def level(self, n_faces: int) -> Surface:
+        """The finest level with at most `n_faces` triangles, or the base if that has more.
+
+        Returns
+        -------
+        Surface
+            Of triangles; its `vertex_index`, `face_index` and `corner_index` say which vertex, polygon and polygon
+            corner of the original each element comes from.
+        """
+        return self._level(self._split_count(n_faces))
+
+    def restore(self) -> Surface:
+        """The original surface, rebuilt from the base by all the splits: positions, polygons and the order of their
+        corners, bit for bit."""
+        return Surface._of(self._native.restored())
+
+    def conformal_structure(
+        self,
+        n_faces: int,
+        *,
+        solver: str = "auto",
+        thresholds: Sequence[float] | None = None,
+        threads: int | None = None,
+        memory_limit: float | None = None,
+        progress: Progress | None = None,
+    ) -> ConformalStructure | BoundedStructure:
+        """The conformal structure of ``level(n_faces)``, with the same homology classes at every level (paper section
+        9): the loops of the base are lifted through the splits, and the classes dual to them pulled back. The
+        intersection matrix and the canonical basis, with boundary the pairing, are equal at all levels, so period
+        matrices and forms can be compared, and textures stay in place from level to level. Boundary loops have the
+        order of the base's at every level.
+
+        Parameters and errors are those of `holomorph.conformal_structure`.
+
+        Returns
+        -------
+        ConformalStructure of a closed surface of genus >= 1, BoundedStructure of one with boundary
+            Its `surface` is ``level(n_faces)``.
+        """
+        options = {"solver": solver, "thresholds": thresholds, "threads": threads, "memory_limit": memory_limit}
+        again = partial(self.conformal_structure, n_faces, **options)
+        threads, memory_limit = check_options(solver, threads), check_memory_limit(memory_limit)
+        thresholds = check_thresholds(thresholds, solver)
+        kind = BoundedStructure if self.base.boundary_count else ConformalStructure
+        splits = self._split_count(n_faces)
+        surface = self._level(splits)
+        level = self._native, splits, surface._native
+        if solver == "paper":
+            native = _native.paper_structure_of_level(*level, thresholds, threads, memory_limit, progress)
+        else:
+            native = _native.conformal_structure_of_level(*level, solver, threads, memory_limit, progress)
+        return result(kind, surface, surface, native, threads).computed_by(again)
+
+    def vertex_map(self, n_faces: int) -> Integers:
+        """(#V,) vertex of ``level(n_faces)`` that each vertex of the original was collapsed into; -1 for isolated ones.
+        It takes edges of the original to edges or single vertices of the level."""
+        return arrays.frozen(self._map_of_original(self._split_count(n_faces)))
+
+    def _map_of_original(self, splits):
+        mapped = self._native.vertex_map(splits)
+        result = np.full(len(self._native.vertex_index), -1, np.int32)
+        result[self._native.vertex_index[: len(mapped)]] = mapped
+        return result
+
+    # Defined in level_forms.py.
+    lift_loops = level_forms.lift_loops
+    pull_back_forms = level_forms.pull_back_forms

@@ -1,0 +1,1 @@
+"""The choice of a map for each part of a surface, and all maps of a selection."""

@@ -1,0 +1,70 @@
+"""The map of one connected part, by the same steps as those of all parts of a mesh."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from ..core.array_types import Progress
+from ..mesh.checks import check_type
+from ..mesh.surface import Surface
+from ..tiling.tiling import Poles
+from .automatic_maps import TOLERANCE, sized_maps
+from .automatic_structure import AnyStructure
+from .map import Map
+from .map_choice import EVENNESS
+
+
+def automatic_map(
+    surface: Surface,
+    structure: AnyStructure | None = None,
+    *,
+    main: str = "automatic",
+    tiles: float | None = None,
+    density: float | None = None,
+    density_tolerance: float = TOLERANCE,
+    poles: Poles = "auto",
+    lattice: str | ArrayLike = "square",
+    direction: ArrayLike | str | None = "upright",
+    boundary: str = "automatic",
+    turn: float | None = None,
+    max_turn: float = 0.2,
+    max_added: float | None = None,
+    evenness: float = EVENNESS,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Map:
+    """The `Map` of one connected part of any kind.
+
+    A part that is flat, or falls into flat pieces at its hard edges, gets these (`island_map`). On another one a
+    texture breaks off at the seams of the balanced map, and its size follows the density. Where there is a seam, or the
+    density ratio is above 2, tilings are tried. One takes the place of the balanced map where its density is about as
+    even, its mean s1 / s2 at most a tenth larger, and hardly any area is flipped. Where there are islands too, the map
+    is taken that an eye minds least (`appearance`).
+
+    Parameters
+    ----------
+    surface : Surface, connected; isolated vertices are ignored
+    structure : its conformal structure, default `automatic_structure`. It keeps the poles that were placed: another
+        call with other tiles, lattice or direction is quick
+    main : "automatic"; "seamless" for a tiling in any case; "untiled" for the best of the other maps; "balanced" for a
+        map of forms, as when something about the structure was chosen
+    tiles, poles, lattice, boundary, turn, max_turn, max_added : of tilings, as in `Structure.tile`
+    density, density_tolerance : tiles per unit of area, and the relative amount by which whole tiles may miss it; where
+        they miss it by more, the map is not a tiling
+    direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
+    evenness : from 0 for a conformal map to 1 for squares of nearly one size; see `Structure.tile`
+    threads : as in `conformal_structure`
+    progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
+
+    Raises what `automatic_structure` raises; TopologyError or SolverError if a tiling was asked for and cannot be made,
+    or would lose more than 2 % of the area, as on a mesh of few faces.
+    """
+    check_type(surface, Surface)
+    options = {"lattice": lattice, "direction": direction, "boundary": boundary, "evenness": evenness}
+    options |= {"turn": turn, "max_turn": max_turn, "max_added": max_added}
+    structures = None if structure is None else [structure]
+    size = {"tiles": tiles, "density": density, "tolerance": density_tolerance}
+    (made,) = sized_maps([surface], structures, [main], [(poles, options)], **size, threads=threads, progress=progress)
+    if isinstance(made, Map):
+        return made
+    raise made

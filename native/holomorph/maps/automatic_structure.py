@@ -1,0 +1,88 @@
+"""Which structure a part gets, by the choices and by its topology."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeAlias
+
+from numpy.typing import ArrayLike
+
+from ..core.array_types import Complexes, Integers, Progress
+from ..core.arrays import integer
+from ..forms.bounded import BoundedStructure
+from ..forms.closed import ConformalStructure
+from ..forms.log_map import log_map
+from ..forms.pole_structure import PoleStructure
+from ..forms.structure import BOUNDARIES, conformal_structure
+from ..mesh.checks import check_thresholds, only_component
+from ..mesh.edges import around_boundary
+from ..mesh.surface import Surface
+from ..plane.cut import cut_along
+from ..plane.disk import default_disk_map, disk_map, free_boundary_map, rectangle_map
+from ..plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
+
+AnyStructure: TypeAlias = (
+    ConformalStructure | BoundedStructure | PoleStructure | DiskMap | FreeBoundaryMap | RectangleMap | TriangleMap
+)
+Vertices: TypeAlias = Sequence[int] | Integers
+
+
+def automatic_structure(
+    surface: Surface,
+    *,
+    poles: Vertices | None = None,
+    residues: Sequence[complex] | Complexes | None = None,
+    corners: Vertices | None = None,
+    boundary: str = "natural",
+    cuts: ArrayLike | None = None,
+    solver: str = "auto",
+    thresholds: Sequence[float] | None = None,
+    threads: int | None = None,
+    memory_limit: float | None = None,
+    progress: Progress | None = None,
+) -> AnyStructure:
+    """The structure of one connected surface of any kind. Without a choice: `conformal_structure` where there are
+    holomorphic forms, `log_map` of a sphere, and of a disk the rectangle with clear corners, the unit disk, or what is
+    most even.
+
+    Parameters
+    ----------
+    corners : list of four boundary vertices in any order: `rectangle_map` with these
+    poles, residues : `disk_map` of a disk with one pole and without residues; else `log_map` with these
+    boundary : "natural", "double_cover" as in `conformal_structure`, or "free" for `free_boundary_map`
+    cuts : (#S, 2) vertices of edges, of `cut_along`
+    solver, thresholds, threads, memory_limit, progress : as in `conformal_structure`
+
+    The first of corners, poles and boundary that is given counts; an empty list counts as not given. Raises what these
+    functions raise.
+    """
+    check_thresholds(thresholds, solver)
+    options = {"solver": solver, "threads": threads, "progress": progress}
+    if corners is not None and len(corners):
+        made = rectangle_map(surface, around_boundary(surface, integer(corners, "corners")), **options)
+    elif poles is not None and len(poles):
+        made = _with_poles(surface, poles, residues, memory_limit, options)
+    elif boundary == "free":
+        made = free_boundary_map(surface, **options)
+    else:
+        made = _by_topology(surface, boundary, thresholds, memory_limit, options)
+    return made if cuts is None else cut_along(made, cuts)
+
+
+def _with_poles(surface, poles, residues, memory_limit, options):
+    component = only_component(surface)
+    is_disk = (component.genus, component.boundary_count) == (0, 1)
+    if is_disk and len(poles) == 1 and residues is None:
+        return disk_map(surface, int(poles[0]), **options)
+    return log_map(surface, poles, residues, memory_limit=memory_limit, **options)
+
+
+def _by_topology(surface, boundary, thresholds, memory_limit, options):
+    component = only_component(surface)
+    topology = component.genus, component.boundary_count
+    if topology == (0, 1) and boundary == "natural":
+        return default_disk_map(surface, **options)
+    if topology == (0, 0) and boundary in BOUNDARIES:
+        return log_map(surface, memory_limit=memory_limit, **options)
+    more = {"boundary": boundary, "thresholds": thresholds, "memory_limit": memory_limit}
+    return conformal_structure(surface, **more, **options)

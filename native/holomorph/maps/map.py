@@ -1,0 +1,206 @@
+"""The UV map of one connected part, of whichever kind."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .._native import TopologyError
+from ..core import arrays
+from ..core.array_types import Complexes, Integers, Progress, Reals
+from ..core.value import Value
+from ..cutting.island_map import Islands
+from ..forms.pole_structure import PoleStructure
+from ..mesh.checks import checked_evenness
+from ..mesh.surface import Surface
+from ..quality.appearance import cost
+from ..quality.distortion import WorstPlace, drawn_densities, worst_places
+from ..quality.quality import Quality
+from ..quality.verdicts import Verdict
+from ..tiles.tiled_surface import TiledSurface
+from ..tiling.tiling import Tiling
+from .automatic_structure import AnyStructure
+from .evened_forms import evened_uv
+from .mixed import Mixed
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Map(Value):
+    """Result of `automatic_map`. All arrays are read-only; vertices are those of `surface`.
+
+    surface : Surface, connected
+    structure : the conformal structure that the map is made of, or beside
+    uv : (#C, 2) UVs. Those of a tiling may be multiplied and moved by integers only
+    quality : `Quality`
+    coefficients : (n,) with which `structure.uv` gives the map; (0,) for a map of another kind
+    why : why it is this map, in one sentence
+    tiling : `Tiling`, None for other kinds
+    islands : `Islands`, None for other kinds
+    mixed : `Mixed`, None for other kinds
+    """
+
+    surface: Surface
+    structure: AnyStructure
+    uv: Reals
+    quality: Quality
+    coefficients: Complexes | Reals
+    why: str
+    tiling: Tiling | None = None
+    islands: Islands | None = None
+    mixed: Mixed | None = None
+    _evenness: float = 0.0
+
+    @property
+    def kind(self) -> str:
+        """What the map is.
+
+        "tiling" : without visible seams under a texture that tiles
+        "forms" : a combination of holomorphic forms, cut along seams
+        "strip" : an annulus as a rectangle whose two other sides are a seam
+        "log" : around poles, which lie at infinity, also a sphere as a strip
+        "disk", "rectangle", "triangle" : a disk with a straight or round boundary
+        "flat" : in one piece, with a free boundary
+        "islands" : in flat pieces
+        "mixed" : in pieces between hard edges, some of them tilings, the rest flat
+        """
+        if self.mixed:
+            return "mixed"
+        if self.islands:
+            return "islands" if self.islands.count > 1 or len(self.islands.seams) else "flat"
+        return "tiling" if self.tiling else self.structure.map_kind
+
+    @property
+    def own(self) -> Tiling | Islands | Mixed | None:
+        """The map itself, where it is not one of the forms of its structure."""
+        return self.tiling or self.islands or self.mixed
+
+    @property
+    def is_tiled(self) -> bool:
+        """Whether a texture breaks off when the UVs are moved by anything but whole tiles."""
+        return bool(self.tiling or self.mixed)
+
+    @property
+    def cost(self) -> float:
+        """The cost to the eye, see `appearance.cost`."""
+        if self.islands or self.mixed:
+            return (self.islands or self.mixed).cost
+        lengths = self.structure._triangulation.edge_lengths
+        seams = 0.0 if self.tiling else lengths[self.structure.seams].sum() / math.sqrt(self.surface.area)
+        return cost(self.quality, len(self.poles), soft_seams=float(seams))
+
+    @property
+    def verdict(self) -> Verdict:
+        """The `Verdict` on the map."""
+        return self.tiling.verdict if self.tiling else self.quality.verdict
+
+    @property
+    def evenness(self) -> float:
+        """From 0, conformal, to 1: how far squares of one size were preferred to angles."""
+        return self.own.evenness if self.own else self._evenness
+
+    @cached_property
+    def seams(self) -> Integers:
+        """(#S, 2) vertices of the edges where the UVs jump."""
+        if self.own:
+            return self.own.seams
+        return self._of_surface(self.structure._triangulation.edges[self.structure.seams])
+
+    @cached_property
+    def poles(self) -> Integers:
+        """(k,) vertices around which the UVs change by a residue."""
+        if self.tiling or self.mixed:
+            return (self.tiling or self.mixed).poles
+        is_log = not self.islands and isinstance(self.structure, PoleStructure)
+        return self._of_surface(self.structure._native.poles() if is_log else np.empty(0, np.int32))
+
+    @cached_property
+    def tiled(self) -> TiledSurface:
+        """The surface under the tiling, where things are placed in tiles. Raises TopologyError for a map that is
+        none."""
+        if not self.tiling:
+            raise TopologyError(f'the map is not a tiling: its kind is {self.kind!r}; main="seamless" makes one')
+        return TiledSurface(self.surface, self.uv, self.tiling.lattice)
+
+    @property
+    def density(self) -> float:
+        """UV area per area of the surface, the median by that over the triangles that are drawn: tiles of a tiling."""
+        return self._drawn[1]
+
+    @property
+    def drawn_ratio(self) -> float:
+        """95 % over 5 % quantile of UV area per area of the surface, over the triangles that are drawn."""
+        low, _, high = self._drawn
+        return high / low if low > 0 else math.inf
+
+    @cached_property
+    def _drawn(self):
+        """The quantiles of the density. An intrinsic surface is not drawn."""
+        if self.surface.vertices is not None:
+            return drawn_densities(self.surface, self.uv)
+        return 1.0, self.quality.median_density, self.quality.density_ratio
+
+    @cached_property
+    def worst_places(self) -> dict[str, WorstPlace]:
+        """Where an eye finds the map worst, apart from its poles: `face`, `position` and `value` of the "largest" and
+        the "smallest" squares (a side over that at the median density) and of the most "sheared" ones (s1 / s2).
+        Empty for an intrinsic surface, and where all faces are at poles."""
+        return {} if self.surface.vertices is None else worst_places(self.surface, self.uv, self.poles)
+
+    @property
+    def unit_length(self) -> float:
+        """Length on the surface of a UV unit where the density is the median one; 0 for a map without area."""
+        return 1 / math.sqrt(self.density) if self.density > 0 else 0.0
+
+    def of_copy(self, surface: Surface, structure: AnyStructure | None, scale: float) -> Map:
+        """The same map of a copy of the part, whose lengths are multiplied by `scale`."""
+        quality = self.quality.of_copy(scale)
+        return replace(
+            self,
+            surface=surface,
+            structure=structure or self.structure.of_copy(surface),
+            quality=quality,
+            tiling=self.tiling and replace(self.tiling, quality=quality),
+            islands=self.islands and replace(self.islands, quality=quality),
+            mixed=self.mixed and replace(self.mixed, quality=quality),
+        )
+
+    def _facts(self):
+        return [self.kind, self.why, self.verdict.level]
+
+    def _of_surface(self, vertices):
+        component = self.surface.components[0]
+        return arrays.frozen(vertices if component is self.surface else component.vertex_index[vertices])
+
+
+def form_map(
+    surface: Surface,
+    structure: AnyStructure,
+    coefficients: ArrayLike | None = None,
+    why: str = "it was asked for",
+    *,
+    evenness: float = 0.0,
+    progress: Progress | None = None,
+) -> Map:
+    """The `Map` of a combination of a structure's forms, by default the balanced one.
+
+    surface : the connected part, whose polygon corners are those that were solved on
+    coefficients : (n,) as `structure.uv` takes them
+    evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Jumps stay,
+        and so do straight and round boundaries
+    progress : of evening, as in `conformal_structure`
+
+    Raises ValueError for an evenness outside 0 to 1; SolverError; Cancelled.
+    """
+    evenness = checked_evenness(evenness)
+    if coefficients is None:
+        coefficients = structure.balanced_coefficients()
+    uv = structure.uv(coefficients)
+    quality = structure.quality(uv)
+    if evenness > 0:
+        uv = evened_uv(structure, coefficients, uv, quality, evenness, progress)
+        quality = structure.quality(uv).evened_from(quality, evenness)
+    return Map(surface, structure, uv, quality, coefficients, why, _evenness=evenness)

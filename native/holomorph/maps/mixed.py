@@ -1,0 +1,49 @@
+"""A map of a part in pieces that lie side by side, some with whole tiles, the rest in flat islands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core import arrays
+from ..core.array_types import Integers, Reals
+from ..core.value import Value, counted
+from ..quality.appearance import cost
+from ..quality.quality import Quality
+from ..tiling.tilings import Tiling
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Mixed(Value):
+    """A map whose pieces, cut along hard edges, are mapped each in its own way. All arrays are read-only.
+
+    uv : (#C, 2) UVs: one tile of the texture is the unit square. Those of the tilings may be moved by integers only
+    tilings : of the pieces that have one, each with the UVs of its own corners; their vertices are those of the part
+    seams : (#S, 2) vertices of the edges where the UVs jump
+    quality : `Quality`, with the triangles of one piece after those of another
+    evenness : from 0, conformal, to 1: how far squares of one size were preferred to angles
+    soft_length, hard_length : of the seams across the smooth, and along hard edges that hide them, over the square root
+        of the surface's area
+    """
+
+    uv: Reals
+    tilings: tuple[Tiling, ...]
+    seams: Integers
+    quality: Quality
+    evenness: float
+    soft_length: float
+    hard_length: float
+
+    @property
+    def cost(self) -> float:
+        """The cost to the eye, see `appearance.cost`."""
+        return cost(self.quality, len(self.poles), self.soft_length, self.hard_length)
+
+    def _facts(self):
+        return [counted(len(self.tilings), "tiling"), *self.quality._facts()]
+
+    @property
+    def poles(self) -> Integers:
+        """(k,) vertices, of all tilings."""
+        return arrays.frozen(np.concatenate([tiling.poles for tiling in self.tilings]))

@@ -1,0 +1,100 @@
+"""The pieces of a part between its hard edges, and those that whole tiles would suit better than flat islands."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.array_types import Flags, Integers, Reals
+from ..cutting.hard_edges import TIP, bends, curvature, seen
+from ..cutting.island_cuts import edges_between, in_one_orientation
+from ..cutting.island_map import Islands
+from ..mesh.cut_open import cut_open
+from ..mesh.edges import edge_keys
+from ..mesh.origin import Origin
+from ..mesh.surface import Surface
+from ..quality.appearance import cost
+from ..quality.quality import Quality
+from .map_choice import FLAT, MOST_SOFT
+
+REST = -1  # name of polygons that are looked at with others
+WORTH = 0.03  # part of the area, from which on a piece is looked at by itself
+SMOOTH = 1.0  # radians of curvature without tips, from which on a piece that is not a tube is more than sheets, cones
+TUBES = 0.5  # part of the area of a part without islands, from which on its tubes are looked at
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A connected piece, whose surface counts vertices, polygons and corners as the part does.
+
+    name : that of its polygons
+    uv, cost : of its islands, (#C, 2), see `appearance.cost`; None and infinite without any
+    """
+
+    surface: Surface
+    name: int
+    uv: Reals | None
+    cost: float
+
+    def turn(self, uv: Reals) -> float:
+        """Radians by which rows of squares of the islands turn against those of another map of the piece, in the mean
+        over the area; 0 without islands."""
+        if self.uv is None:
+            return 0.0
+        own, other = ((each @ [1, 1j])[self.surface.triangle_corners] for each in (self.uv, uv))
+        sides = other[:, 1:] - other[:, :1]
+        areas = np.abs((np.conj(sides[:, 0]) * sides[:, 1]).imag)
+        centred = own - own.mean(axis=1, keepdims=True)
+        rotations = np.angle((np.conj(centred) * other).sum(axis=1))  # the best one of each triangle
+        mean = (areas * np.exp(4j * rotations)).sum()  # squares look the same after a quarter turn
+        off = np.abs(np.angle(np.exp(4j * rotations) * np.conj(mean))) / 4
+        return float(np.average(off, weights=areas)) if areas.any() else 0.0
+
+
+def names_of_pieces(surface: Surface, is_hard_edge: Flags) -> Integers:
+    """(#F,) the piece of each polygon, from 0 on: hard edges, (#E,), that end within one do not divide it. Those of
+    less than `WORTH` of the area are `REST`."""
+    names = np.asarray(cut_open(surface, is_hard_edge)._native.face_component)
+    a, b, c = np.moveaxis(surface.vertices[surface.triangles], 1, 0)
+    areas = np.bincount(names[surface.triangle_faces], np.linalg.norm(np.cross(b - a, c - a), axis=1))
+    return np.where((areas >= WORTH * areas.sum())[names], names, REST)
+
+
+def cut_apart(surface: Surface, names: Integers) -> tuple[Surface, ...]:
+    """The components of a surface that is cut between polygons of different names, (#F,). They count as it does."""
+    oriented, order = in_one_orientation(surface)
+    origin = Origin(corner_index=order.astype(np.int32), vertex_count=len(surface.vertices))
+    return cut_open(Surface._of(oriented._native, origin), edges_between(oriented, names)).components
+
+
+def smooth_pieces(surface: Surface, flat: Islands | None, names: Integers, threads: int) -> list[Piece]:
+    """The `Piece`s with `names_of_pieces` that are tubes, or smooth, and across which islands have a seam or stretch,
+    the largest first."""
+    parts = [(part, int(names[part.face_index[0]])) for part in cut_apart(surface, names)]
+    found = []
+    for part, name in sorted(parts, key=lambda pair: -pair[0].area):
+        if name == REST:
+            continue
+        piece, soft, squares = _piece(part, name, flat, threads)
+        if _may_be_smooth(part, flat) and (soft > MOST_SOFT * math.sqrt(surface.area) or squares > FLAT):
+            found.append(piece)
+    tubes = sum(piece.surface.area for piece in found)
+    return found if flat or tubes >= TUBES * surface.area else []
+
+
+def _may_be_smooth(part, flat):
+    is_round = part.genus == 0 and part.boundary_count > 1  # a tube, perhaps with windows
+    return is_round or flat is not None and part.boundary_count > 0 and curvature(part, TIP) > SMOOTH
+
+
+def _piece(part, name, flat, threads):
+    """(`Piece`, length of the seams of islands across the smooth, what is minded of their squares)"""
+    if flat is None:
+        return Piece(part, name, None, math.inf), math.inf, math.inf
+    uv = np.ascontiguousarray(flat.uv[part.corner_index])
+    quality = Quality.of(part._native, uv, threads)
+    native, count = part._native, part.given_vertex_count
+    is_inner = np.bincount(native.triangle_edges.ravel(), minlength=len(native.edges)) == 2
+    is_seam = np.isin(edge_keys(part.vertex_index[native.edges], count), edge_keys(flat.seams, count)) & is_inner
+    soft = float((native.edge_lengths * seen(bends(part)))[is_seam].sum())
+    return Piece(part, name, uv, cost(quality, 0, soft / math.sqrt(part.area))), soft, cost(quality)

@@ -1,0 +1,1 @@
+"""Surfaces: checked, repaired, cut, compared and copied."""

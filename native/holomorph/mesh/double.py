@@ -1,0 +1,114 @@
+"""The double cover of a surface with boundary (paper § 8)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .._native import TopologyError
+from ..core import arrays
+from ..core.array_types import Reals
+from .checks import check_type
+from .surface import Surface
+
+
+def double_cover(surface: Surface) -> Surface:
+    """Two copies of a surface, the second one with the other orientation, glued along all boundary loops: closed, and
+    of genus 2g + b - 1 where the surface is connected.
+
+    Edges are matched by index, so that a chord, an inner edge with both ends on the boundary, gives two edges with the
+    same ends. Hence the result is an intrinsic surface, of triangles and edge lengths without positions. Its first #V
+    vertices and #T triangles are those of `surface`; triangle #T + t lies over triangle t.
+
+    Parameters
+    ----------
+    surface : Surface with boundary, of one or several components
+
+    Returns
+    -------
+    Surface
+        With `dual_vertex`, (#V of the double,): the same vertex in the other copy, itself on the boundary.
+
+    Raises
+    ------
+    TopologyError
+        if the surface has no boundary.
+
+    Cost: linear.
+    """
+    check_type(surface, Surface)
+    native = surface._native
+    triangles, sides = native.triangles.astype(np.int64), native.triangle_edges.astype(np.int64)
+    edges, lengths = native.edges, native.edge_lengths
+    on_boundary = np.bincount(sides.ravel(), minlength=len(edges)) == 1
+    if not on_boundary.any():
+        raise TopologyError("the surface has no boundary along which two copies of it could be glued")
+    shared = np.zeros(native.vertex_count, dtype=bool)
+    shared[edges[on_boundary]] = True
+    shared[native.isolated_vertices] = True  # vertices of no triangle have no second copy
+    dual_vertex, dual_edge = _second_copy(shared), _second_copy(on_boundary)
+    faces = np.concatenate([triangles, dual_vertex[triangles][:, [0, 2, 1]]])
+    opposite = np.concatenate([sides[:, [1, 2, 0]], dual_edge[sides][:, [1, 0, 2]]])  # corner i lies opposite entry i
+    all_lengths = np.empty(max(len(edges), dual_edge.max() + 1))
+    all_lengths[: len(edges)] = lengths
+    all_lengths[dual_edge] = lengths
+    double = Surface.from_edge_lengths(faces, all_lengths[opposite], opposite)
+    both = np.arange(double._native.vertex_count)
+    both[: len(dual_vertex)] = dual_vertex
+    both[dual_vertex] = np.arange(len(dual_vertex))
+    double.dual_vertex = arrays.frozen(both)
+    return double
+
+
+def symmetrised(double: Surface, forms: ArrayLike) -> Reals:
+    """The symmetric parts of forms on a double (paper Eq. 12): half the sum of the values on each edge and on its dual,
+    which is the edge over it in the other copy, from the dual of its first vertex to that of the second.
+
+    Those of harmonic forms are harmonic on the surface itself, whose edges are the first of the double's, with nothing
+    fixed along its boundary; what is left, `forms` minus these, is zero there.
+
+    Parameters
+    ----------
+    double : result of `double_cover`
+    forms : (..., #E) reals on its edges, for the direction from the lower to the higher vertex
+
+    Returns
+    -------
+    (..., #E) reals
+
+    Raises
+    ------
+    TopologyError
+        if `double` is not a double cover.
+    ValueError
+        if `forms` has another number of values.
+    """
+    check_type(double, Surface, "double")
+    if double.dual_vertex is None:
+        raise TopologyError("the surface is not a double_cover; only the edges of one have duals")
+    forms, count = arrays.numbers(forms, "forms"), len(double._native.edges)
+    if forms.ndim == 0 or forms.shape[-1] != count:
+        raise ValueError(f"forms has the shape {forms.shape}; (..., {count}) is needed")
+    dual_edge, sign = _dual_edges(double._native)
+    return arrays.frozen((forms + sign * forms[..., dual_edge]) / 2)
+
+
+def _dual_edges(native):
+    """(#E,) the edge over each, and 1 or -1 as its direction is that of the dual vertices or not. A side of a triangle
+    lies over that of the triangle over it, in reverse."""
+    triangles, sides = native.triangles, native.triangle_edges
+    start, end = triangles, np.roll(triangles, -1, axis=1)
+    is_first = np.zeros(sides.size, dtype=bool)
+    is_first[np.unique(sides, return_index=True)[1]] = True
+    along = np.where((start < end) | ((start == end) & is_first.reshape(sides.shape)), 1, -1)
+    (below, over), (along_below, along_over) = np.split(sides, 2), np.split(along, 2)
+    dual_edge, sign = np.empty(len(native.edges), np.int64), np.empty(len(native.edges), np.int64)
+    for one, other in ((below, over[:, ::-1]), (over[:, ::-1], below)):
+        dual_edge[one], sign[one] = other, -along_below * along_over[:, ::-1]
+    return dual_edge, sign
+
+
+def _second_copy(shared):
+    """Index of each element in the second copy: its own where it is shared, after all those of the first else."""
+    count = len(shared)
+    return np.where(shared, np.arange(count), count - 1 + np.cumsum(~shared))

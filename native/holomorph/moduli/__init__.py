@@ -1,0 +1,1 @@
+"""Period matrices compared: equivalence, automorphisms, invariants, maps between surfaces."""

@@ -1,0 +1,228 @@
+"""Whether two surfaces are conformally equivalent (paper § 9, last sentence)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from numpy.typing import ArrayLike
+
+from .. import _native
+from ..core.array_types import Integers, Progress
+from ..core.progress import scaled
+from ..core.value import Value, quoted
+from ..forms.bounded import BoundedStructure
+from ..forms.closed import ConformalStructure
+from ..forms.results import Structure
+from ..forms.structure import conformal_structure
+from ..mesh.checks import real_number
+from ..mesh.surface import Surface
+from .known_periods import KnownPeriods, period_lattice, side_of
+from .planar import LOOPS_OF_ACHIRAL_SURFACES, planar_verdict
+
+ROUNDING = 1e-9  # relative error of residuals
+AGREEMENT = 0.25  # of the error bars: projected periods are more accurate, so meshes of one surface agree to less
+EXACT = 1e-8  # period matrices that certainly agree to this are taken for the same numbers
+VERDICTS = ("equivalent", "indistinguishable", "mirror_image", "not_equivalent", "undecided")
+AGREEING = VERDICTS[:3]
+STEPS = _native.isometry_steps  # limit of one search among integer matrices
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Equivalence(Value):
+    """What `conformally_equivalent` found.
+
+    verdict : "equivalent" where that is proven: by the topology, by triangles that are similar one by one, or by two
+        period matrices that agree to rounding. "indistinguishable" where the bounds do not tell the surfaces apart.
+        "mirror_image", proven or not; "not_equivalent", always proven; "undecided"
+    is_proven : whether no error of the mesh or of the periods can make the verdict wrong
+    sentence : the verdict and its reason, for people
+    matrix : (n, n) integers R, the certificate: row i is class i of b written in the classes of a, R W_a R^T = W_b, or
+        -W_b where it reverses the orientation. Closed, n = 2g: the classes dual to `homology_basis`, W their wedge
+        matrix; with boundary, n = 2g + b - 1: those of `dirichlet_forms`. The nearest where undecided; None for none
+    residual : distance of the two projected period matrices after R, max |log(E_b / E_a)| over the energies E of
+        corresponding classes: 0.01 for 1 %. For tori the hyperbolic distance of tau; infinite where there is no matrix
+    tolerance : certain bound of the distance of the exact periods: residual and both error bars. Infinite where a
+        surface has degenerate triangles
+    margin : not equivalent: every map between the surfaces, or to the mirror image, stretches some direction at least
+        exp(margin) times as much as another, somewhere. Where periods agree: by how much the residual is below what is
+        asked for. Else 0
+    """
+
+    verdict: str
+    sentence: str
+    matrix: Integers | None = None
+    residual: float = math.inf
+    tolerance: float = math.inf
+    margin: float = 0.0
+    is_proven: bool = False
+
+    def _facts(self):
+        return [self.sentence]
+
+
+def conformally_equivalent(
+    a: Surface | Structure | ArrayLike,
+    b: Surface | Structure | ArrayLike,
+    *,
+    tolerance: float = 0.0,
+    progress: Progress | None = None,
+) -> Equivalence:
+    """An `Equivalence`: whether there is a conformal map between two connected surfaces.
+
+    By Torelli's theorem there is one if and only if an integer matrix brings the periods of one to those of the other.
+    "not_equivalent" is said where the error bars of the periods exclude all integer matrices; "indistinguishable", or
+    "mirror_image", where one brings the projected periods as near as a quarter of the error bars' geometric mean, of
+    the other's where one is exact, and the result's `tolerance` says how near the exact ones are for certain;
+    "undecided" else. A surface with both is called what it is nearer to. "equivalent" needs a proof: meshes that differ
+    by their place, size and numbers, or two matrices.
+
+    Parameters
+    ----------
+    a, b : Surface, or a structure that was computed of it, or a (g, g) period matrix, such as the `curve_period_matrix`
+        of a known curve with its error. Other matrices are exact to rounding, or as far as they are symmetric
+    tolerance : `Equivalence.residual` that counts as none. Error bars are those of the polyhedral surfaces, and 0 tells
+        apart two meshes of one smooth surface where their discretisation does: 0.01 takes them for one within 1 %
+    progress : progress(fraction, stage), as in `conformal_structure`
+
+    Raises TopologyError for several components, and what `conformal_structure` raises; ValueError for a matrix that is
+    none of periods; TypeError for what is neither; Cancelled.
+
+    Cost: that of both structures; the search takes seconds at most, and beyond a limit is "undecided".
+    Source: Plesken & Souvignier (1997), with lattice points near a point for its candidates.
+    """
+    if real_number(tolerance, "tolerance") < 0:
+        raise ValueError(f"tolerance is {quoted(tolerance)}; it must not be negative")
+    first, second = side_of(a), side_of(b)
+    found = _by_topology(first, second)
+    if found is not None:
+        return found
+    structures = [
+        _structure(given, part, scaled(progress, start, start + 0.4))
+        for given, part, start in ((a, first, 0.0), (b, second, 0.4))
+    ]
+    lattices = [period_lattice(structure) for structure in structures]
+    is_known = any(isinstance(structure, KnownPeriods) for structure in structures)
+    needed = AGREEMENT * _common_bars(*(lattice.radius() for lattice in lattices), is_known)
+    made = _native.compare(*lattices, allowed=float(tolerance), needed=needed, progress=scaled(progress, 0.8, 0.9))
+    verdict, isometry = made.verdict.name, made.isometry
+    if verdict == "indistinguishable" and first.genus == 0 and first.boundary_count > LOOPS_OF_ACHIRAL_SURFACES:
+        verdict, isometry = _planar(structures, lattices, made, scaled(progress, 0.9, 0.9))
+    is_bounded = all(structure.period_bounds is not None for structure in structures)
+    found = _equivalence(verdict, isometry, made, is_bounded)
+    return _proven(found, first, second, scaled(progress, 0.9, 1.0))
+
+
+def _common_bars(first, second, is_known):
+    """For two meshes the geometric mean, so that a coarse one is not taken for all that it may be; the larger one where
+    a mesh is exact, or periods are known without a mesh."""
+    return max(first, second) if is_known or min(first, second) <= ROUNDING else math.sqrt(first * second)
+
+
+def _planar(structures, lattices, made, progress):
+    """(verdict, isometry): an isometry that keeps the orientation, if any does. All that bring the periods as near as
+    is needed are tried, for a symmetric surface has mirror images among its own."""
+    verdict = planar_verdict(*structures, made.isometry.matrix)
+    if verdict == "indistinguishable":
+        return verdict, made.isometry
+    needed = made.isometry.residual + made.margin
+    others = _native.isometries(*(lattice.projected() for lattice in lattices), sign=1, slack=needed, progress=progress)
+    for isometry in sorted(others.found, key=lambda each: each.residual):
+        if planar_verdict(*structures, isometry.matrix) == "indistinguishable":
+            return "indistinguishable", isometry
+    return verdict, made.isometry
+
+
+def _by_topology(first, second):
+    """The `Equivalence` of surfaces whose topology decides it, else None."""
+    genus, loops = first.genus, first.boundary_count
+    if (genus, loops) != (second.genus, second.boundary_count):
+        texts = [part._topology.text() for part in (first, second)]
+        return Equivalence(
+            "not_equivalent", f"Not equivalent: {texts[0]}, and {texts[1]}.", margin=math.inf, is_proven=True
+        )
+    if genus == 0 and loops <= 1:
+        kind = "disks" if loops else "spheres"
+        sentence = f"Equivalent: all {kind} are."
+        return Equivalence("equivalent", sentence, residual=0.0, tolerance=0.0, is_proven=True)
+    return None
+
+
+def _structure(given, component, progress):
+    if isinstance(given, (ConformalStructure, BoundedStructure)):
+        return given
+    if isinstance(component, KnownPeriods):
+        return component
+    return conformal_structure(component, progress=progress)
+
+
+def _equivalence(verdict, isometry, made, is_bounded):
+    margin, tolerance = made.margin, made.tolerance if is_bounded else math.inf
+    if verdict == "undecided" or (verdict == "not_equivalent" and not is_bounded):
+        verdict, margin = "undecided", 0.0
+    matrix, residual = (isometry.matrix, isometry.residual) if isometry else (None, math.inf)
+    if isometry:
+        tolerance += residual - made.isometry.residual
+    sentence = _sentence(verdict, residual, tolerance, margin, made.is_complete, is_bounded)
+    return Equivalence(verdict, sentence, matrix, residual, tolerance, margin, verdict == "not_equivalent")
+
+
+def _proven(found, first, second, progress):
+    """What was found, with the proof of an equivalence if there is one."""
+    known = [isinstance(side, KnownPeriods) for side in (first, second)]
+    # The tolerance is the sum of residual and error bars: these have to account for all of the residual.
+    if all(known) and found.verdict in AGREEING and found.tolerance <= EXACT and found.residual <= found.tolerance / 2:
+        return _with_proof(found, found.verdict != "mirror_image", "their periods agree to rounding")
+    if any(known) or found.verdict == "not_equivalent":
+        return found
+    is_achiral = first.genus == 0 and first.boundary_count <= LOOPS_OF_ACHIRAL_SURFACES
+    signs = {"indistinguishable": (1, -1) if is_achiral else (1,), "mirror_image": (-1,)}
+    for sign in signs.get(found.verdict, (1, -1)):
+        dilatation = _native.similarity(first._native, second._native, sign, progress)
+        if dilatation is not None:
+            nearest = replace(found, tolerance=min(found.tolerance, dilatation))
+            if found.verdict == "undecided":  # its matrix may have the other sign
+                nearest = replace(nearest, matrix=None, residual=math.inf)
+            return _with_proof(nearest, sign > 0 or is_achiral, "their triangles are similar, to rounding")
+    return found
+
+
+def _with_proof(found, is_same, reason):
+    verdict, begin = ("equivalent", "Equivalent") if is_same else ("mirror_image", "Mirror images of each other")
+    return replace(found, verdict=verdict, sentence=f"{begin}: {reason}.", is_proven=True)
+
+
+def _sentence(verdict, residual, tolerance, margin, is_complete, is_bounded):
+    if verdict == "not_equivalent":
+        return (
+            f"Not equivalent: every map stretches some direction at least {_factor(margin)} times as much as another."
+        )
+    agree = "their periods " + ("agree to rounding" if residual <= ROUNDING else f"differ by {_percent(residual)}")
+    if verdict in AGREEING:
+        begin = "Indistinguishable" if verdict == "indistinguishable" else "Mirror images"
+        if not is_bounded:
+            return f"{begin}, but without a bound, since a surface has degenerate triangles: {agree}."
+        return f"{begin} within {_percent(tolerance)}: {agree}."
+    if not is_bounded:
+        return "Undecided: a surface has degenerate triangles, so the bounds hold for a slightly different one."
+    if not is_complete:
+        return f"Undecided: the search among integer matrices reached its limit of {STEPS} steps."
+    bound = f"with an error certainly below {_percent(tolerance)}"
+    return f"Undecided: {agree}, {bound}; finer meshes have narrower bounds."
+
+
+def _percent(distance):
+    """A logarithm as per cent, rounded up to two digits."""
+    value = 100 * math.expm1(distance)
+    return f"{_rounded(value, math.ceil):.12g} %"
+
+
+def _factor(margin):
+    return f"{math.floor(math.exp(margin) * 1e4) / 1e4:.5g}"
+
+
+def _rounded(value, rounding):
+    if value == 0 or not math.isfinite(value):
+        return value
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return rounding(value / unit) * unit

@@ -1,0 +1,1 @@
+"""Maps of disks, rectangles and spheres, and surfaces that are cut open."""

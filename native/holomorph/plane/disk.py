@@ -1,0 +1,159 @@
+"""Maps of disks to the plane, and which of them is taken without a choice."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from .. import _native
+from .._native import TopologyError
+from ..core.array_types import Integers, Progress
+from ..forms.log_map import log_map
+from ..forms.pole_structure import PoleStructure
+from ..forms.results import result
+from ..mesh.checks import check_options, only_component, own_vertices
+from ..mesh.surface import Surface
+from .plane_maps import DiskMap, FreeBoundaryMap, PlaneMap, RectangleMap, TriangleMap
+
+UNEVEN = 100.0  # density ratio of a disk map, ten in length, above which others are tried
+
+
+def disk_map(
+    surface: Surface,
+    centre: int | None = None,
+    *,
+    solver: str = "auto",
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> DiskMap:
+    """The `DiskMap` of a disk: its Riemann map to the unit disk.
+
+    centre : vertex that is mapped to 0, its star apart from the boundary; default: the one farthest from the boundary
+        along the edges
+    solver, threads, progress : as in `conformal_structure`
+
+    Raises TopologyError for other surfaces, and for a centre that does not fit; SolverError; Cancelled.
+    """
+    count, component = check_options(solver, threads), _disk(surface, "a disk map")
+    vertices, labels = own_vertices(surface, component, [] if centre is None else [centre], "centre")
+    native = _native.pole_structure(component._native, vertices, [], labels, solver, count, 0, progress)
+    made = result(DiskMap, surface, component, native, count)
+    return made.computed_by(partial(disk_map, surface, centre, solver=solver, threads=threads))
+
+
+def rectangle_map(
+    surface: Surface,
+    corners: Sequence[int] | Integers | None = None,
+    *,
+    solver: str = "auto",
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> RectangleMap:
+    """The `RectangleMap` of a disk with four corners on its boundary.
+
+    corners : list of four boundary vertices in the order of the boundary, the surface on its left. Default: the clear
+        corners of the boundary, where it turns by more than 45 degrees at exactly four places and back at none
+        (plane/clear_corners.h); else the quarters of its length
+    solver, threads, progress : as in `conformal_structure`
+
+    Raises TopologyError for other surfaces, for corners that do not fit, and for a boundary of three edges;
+    SolverError; Cancelled.
+    """
+    count, component = check_options(solver, threads), _disk(surface, "a rectangle")
+    if corners is None:
+        own = _native.clear_corners(component._native)
+        vertices, labels = (_native.quarter_corners(component._native) if own is None else own), []
+    else:
+        vertices, labels = own_vertices(surface, component, corners, "rectangle corner")
+    native = _native.rectangle_map(component._native, vertices, labels, solver, count, progress)
+    given = None if corners is None else np.array(corners).tolist()  # the caller's list may change
+    made = result(RectangleMap, surface, component, native, count)
+    return made.computed_by(partial(rectangle_map, surface, given, solver=solver, threads=threads))
+
+
+def free_boundary_map(
+    surface: Surface, *, solver: str = "auto", threads: int | None = None, progress: Progress | None = None
+) -> FreeBoundaryMap:
+    """The `FreeBoundaryMap` of a disk, which keeps lengths along the boundary, with the least variation of density.
+
+    solver, threads, progress : as in `conformal_structure`
+
+    Raises TopologyError for other surfaces; SolverError; Cancelled."""
+    count, component = check_options(solver, threads), only_component(surface)
+    native = _native.free_boundary_map(component._native, solver, count, progress)
+    made = result(FreeBoundaryMap, surface, component, native, count)
+    return made.computed_by(partial(free_boundary_map, surface, solver=solver, threads=threads))
+
+
+def triangle_map(
+    surface: Surface, *, solver: str = "auto", threads: int | None = None, progress: Progress | None = None
+) -> TriangleMap:
+    """The `TriangleMap` of a disk with three boundary edges, such as a single triangle.
+
+    solver, threads, progress : as in `conformal_structure`
+
+    Raises TopologyError for other surfaces; SolverError; Cancelled."""
+    count, component = check_options(solver, threads), _disk(surface, "a triangle")
+    native = _native.triangle_map(component._native, solver, count, progress)
+    made = result(TriangleMap, surface, component, native, count)
+    return made.computed_by(partial(triangle_map, surface, solver=solver, threads=threads))
+
+
+def _disk(surface, what):
+    component = only_component(surface)
+    if (component.genus, component.boundary_count) == (0, 1):
+        return component
+    raise TopologyError(f"the surface has {component._topology.text()}; {what} needs a disk")
+
+
+def default_disk_map(surface, **options) -> PlaneMap | PoleStructure:
+    """The map of a disk for which nothing was chosen.
+
+    Where its boundary has four clear corners, rough, round or wavy as they may be, the rectangle with these. Else the
+    map to the unit disk centred at the vertex farthest from the boundary along the edges. Where its density ratio is
+    above `UNEVEN`, as on a glove or a long tube, the most even one of it, the log map with the same pole and the
+    rectangle with corners at the quarters of the boundary. Where every vertex is next to the boundary, that rectangle,
+    or the map with a free boundary where the rectangle collapses triangles and it flips none; with three boundary edges
+    a triangle.
+
+    options : solver, threads, progress
+    """
+    component = only_component(surface)
+    if _native.clear_corners(component._native) is not None:
+        return rectangle_map(surface, **options)
+    has_four_sides = _native.boundary_length(component._native) > 3
+    try:
+        round_map = disk_map(surface, **options)
+    except TopologyError:
+        return _without_inner_vertices(surface, options) if has_four_sides else triangle_map(surface, **options)
+    if _density_ratio(round_map) <= UNEVEN:
+        return round_map
+    maps = [round_map, _log_map(round_map, options)]
+    if has_four_sides:
+        maps.append(rectangle_map(surface, **options))
+    return min(maps, key=_density_ratio)
+
+
+def _log_map(round_map, options):
+    """The log map from the solve for a `DiskMap`."""
+    surface, component, threads = round_map.surface, round_map._component, round_map._threads
+    made = result(PoleStructure, surface, component, round_map._native, threads)
+    again = {name: value for name, value in options.items() if name != "progress"}
+    return made.computed_by(partial(log_map, surface, [round_map.centre], **again))
+
+
+def _without_inner_vertices(surface, options):
+    """The map of a disk without inner vertices: a rectangle that collapses no triangle, or else the map with a free
+    boundary.
+    """
+    straight = rectangle_map(surface, **options)
+    if not len(straight.collapsed_triangles):
+        return straight
+    free = free_boundary_map(surface, **options)
+    return straight if free.quality(free.uv()).flipped.any() else free
+
+
+def _density_ratio(structure):
+    return structure.quality(structure.uv(structure.balanced_coefficients())).density_ratio

@@ -1,0 +1,1 @@
+"""How good a map is: distortion, overlaps, coarse places, verdicts in words."""

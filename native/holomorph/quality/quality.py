@@ -1,0 +1,159 @@
+"""The distortion of UV maps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import _native
+from ..core import arrays
+from ..core.array_types import Flags, Reals
+from ..core.value import Value
+from .distortion import HIGH, LOW, quantiles
+from .verdicts import LONG, UNSEEN, Verdict, verdict
+
+MOST_SHEARED = 10.0  # what s1 / s2 counts at most in the capped mean
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Quality(Value):
+    """Distortion of a UV map per triangle, s1 >= s2 its singular values.
+
+    angle: (#T,) s1 / s2 (1 where a triangle has no area, infinite where it has collapsed or a UV is not finite); area:
+    (#T,) s1 s2, UV area per surface area; flipped: (#T,) bool; mean_angle: mean of s1 / s2 over the area of the
+    triangles that have not collapsed; density_ratio: 95 % over 5 % quantile of s1 s2 by area; median_density: its 50 %
+    quantile; capped_mean_angle: mean of s1 / s2 over the area, 10 at most, so that no single triangle decides it;
+    flipped_part, lost_part, long_part: parts of the area that are flipped, that are flipped or have collapsed, and that
+    lie in long thin triangles; overlapping_part: of a map with a free boundary, the part of its region in the plane
+    that it covers more than once; None for others; unseen_angle: of an evened map, what evening added to
+    `capped_mean_angle`, as far as that is not seen.
+    """
+
+    _unpickled = ("_triangulation",)
+
+    angle: Reals
+    area: Reals
+    flipped: Flags
+    mean_angle: float
+    density_ratio: float
+    median_density: float
+    _triangulation: object
+    overlapping_part: float | None = None
+    unseen_angle: float = 0.0
+
+    @classmethod
+    def of(cls, triangulation: object, uv: Reals, threads: int) -> Quality:
+        """The `Quality` of (#C, 2) UVs on a native surface."""
+        found = _native.quality(triangulation, uv, threads)
+        parts = found.angle, found.area, found.flipped
+        return cls(*parts, found.mean_angle, found.density_ratio, found.median_density, triangulation)
+
+    @classmethod
+    def joined(cls, qualities: Sequence[Quality], densities: ArrayLike) -> Quality:
+        """The `Quality` of several maps together, each scaled until its median density is the given one. Triangles of
+        one map follow those of the other.
+
+        densities : (n,); maps without area keep theirs
+        """
+        scaled = [each.of_density(density) for each, density in zip(qualities, densities)]
+        if len(scaled) == 1:
+            return scaled[0]
+        parts = [(each.angle, each.area, each.flipped, each._weights) for each in scaled]
+        angle, density, flipped, weights = map(np.concatenate, zip(*parts))
+        low, median, high = quantiles(density, weights, (LOW, 0.5, HIGH))
+        kept = np.isfinite(angle)
+        mean = float(np.average(angle[kept], weights=weights[kept])) if weights[kept].any() else np.inf
+        figures = mean, float(high / low) if low > 0 else np.inf, float(median)
+        shares = [each._weights.sum() for each in qualities]
+        long, unseen, overlapping = (
+            float(np.average([getattr(each, name) or 0.0 for each in qualities], weights=shares))
+            for name in ("long_part", "unseen_angle", "overlapping_part")
+        )
+        is_island = any(each.overlapping_part is not None for each in qualities)
+        of_triangles = map(arrays.frozen, (angle, density, flipped))
+        result = cls(*of_triangles, *figures, None, overlapping if is_island else None, unseen)
+        vars(result).update(long_part=long, _weights=weights)
+        return result
+
+    def evened_from(self, before: Quality, evenness: float) -> Quality:
+        """The same for a map that evening made of one with the quality `before`."""
+        added = self.capped_mean_angle - before.capped_mean_angle
+        return replace(self, unseen_angle=min(max(added, 0.0), UNSEEN * evenness))
+
+    def of_copy(self, scale: float) -> Quality:
+        """The `Quality` of the same map on a copy of the surface, whose lengths are multiplied by `scale`."""
+        result = self._scaled(scale**-2)
+        vars(result)["_weights"] = self._weights * scale**2
+        return result
+
+    def of_density(self, density: float) -> Quality:
+        """The `Quality` of the map scaled until its median density is this one; a map without area keeps its own."""
+        return self._scaled(density / self.median_density if self.median_density > 0 else 1.0)
+
+    def _scaled(self, factor):
+        area = arrays.frozen(self.area * factor)
+        result = replace(self, area=area, median_density=self.median_density * factor)
+        vars(result).update(long_part=self.long_part, _weights=self._weights)
+        return result
+
+    def _facts(self):
+        lost = [(self.flipped, "flipped"), (self.collapsed, "collapsed")]
+        counts = [f"{count} {name}" for flags, name in lost if (count := np.count_nonzero(flags))]
+        return [f"mean s1/s2 {self.mean_angle:.4g}", f"density ratio {self.density_ratio:.4g}", *counts]
+
+    def __getstate__(self):
+        vars(self).update(long_part=self.long_part, _weights=self._weights)  # these need the triangulation
+        return super().__getstate__()
+
+    @property
+    def collapsed(self) -> Flags:
+        """(#T,) bool: the map leaves a triangle with area next to none."""
+        return np.isinf(self.angle)
+
+    @cached_property
+    def capped_mean_angle(self) -> float:
+        return float(np.average(np.minimum(self.angle, MOST_SHEARED), weights=self._weights))
+
+    @cached_property
+    def density_spread(self) -> float:
+        """Mean distance of the logarithm of `area` from that of the median, by area; collapsed triangles do not
+        count."""
+        has_size = self.area > 0
+        if not has_size.any() or not self.median_density > 0:
+            return 0.0
+        octaves = np.abs(np.log(self.area[has_size] / self.median_density))
+        return float(np.average(octaves, weights=self._weights[has_size]))
+
+    @cached_property
+    def flipped_part(self) -> float:
+        return float(np.average(self.flipped, weights=self._weights))
+
+    @cached_property
+    def lost_part(self) -> float:
+        return float(np.average(self.flipped | self.collapsed, weights=self._weights))
+
+    @cached_property
+    def long_part(self) -> float:
+        is_long = self._sides[:, 2] ** 2 > 2 * LONG * self._weights
+        return float(np.average(is_long, weights=self._weights))
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """The `Verdict` on the map."""
+        return verdict(self)
+
+    @property
+    def _sides(self):
+        """(#T, 3) lengths, ascending."""
+        return np.sort(self._triangulation.edge_lengths[self._triangulation.triangle_edges], axis=1)
+
+    @cached_property
+    def _weights(self):
+        """(#T,) areas of the triangles, from their sides (Heron's formula, its factors kept from cancelling)."""
+        a, b, c = self._sides.T
+        areas = np.sqrt(np.maximum((c + (b + a)) * (a - (c - b)) * (a + (c - b)) * (c + (b - a)), 0.0)) / 4
+        return areas if areas.any() else np.ones_like(areas)

@@ -1,0 +1,1 @@
+"""Points, lines and cells on the tiles of a map, and relief."""

@@ -1,0 +1,58 @@
+"""The closed shells of a mesh, each the right way round: outer ones outwards, hollows in them inwards."""
+
+import numpy as np
+
+from ..mesh.surface import Surface
+from .relief import volume
+
+SAMPLES = 5  # vertices of a shell that decide whether it lies inside another one, by most of them
+
+
+def outward(surface):
+    """(the surface with every closed part the right way round, how many were not), see `inside_out`."""
+    wrong = inside_out(surface.components)
+    return (_turned(surface, wrong), len(wrong)) if wrong else (surface, 0)
+
+
+def inside_out(parts):
+    """The closed ones of some parts that are the wrong way round. A part lies as deep as there are closed parts around
+    it: at an even depth it bounds the solid from outside, and its volume is positive."""
+    closed = [part for part in parts if not part.boundary_count]
+    boxes = np.array([[part.vertices.min(axis=0), part.vertices.max(axis=0)] for part in closed]).reshape(-1, 2, 3)
+    wrong = []
+    for k, part in enumerate(closed):
+        around = np.flatnonzero((boxes[:, 0] <= boxes[k, 0]).all(axis=1) & (boxes[:, 1] >= boxes[k, 1]).all(axis=1))
+        depth = sum(_is_inside(part, closed[other]) for other in around if other != k)
+        if (-1) ** depth * volume(part.vertices, part.triangles) < 0:
+            wrong.append(part)
+    return wrong
+
+
+def turned_sentence(count):
+    """What is said of shells that were turned."""
+    return f"{count} shells were inside out: they were turned" if count > 1 else "1 shell was inside out: it was turned"
+
+
+def _is_inside(part, other):
+    step = max(len(part.vertices) // SAMPLES, 1)
+    found = [abs(winding_number(other, point)) > 0.5 for point in part.vertices[::step][:SAMPLES]]
+    return 2 * sum(found) > len(found)
+
+
+def winding_number(surface, point):
+    """How often a closed surface goes around a point: the sum of the solid angles of its triangles, over 4 pi (van
+    Oosterom and Strackee 1983, doi:10.1109/TBME.1983.325207)."""
+    a, b, c = np.moveaxis(surface.vertices[surface.triangles] - point, 1, 0)
+    p, q, r = (np.linalg.norm(side, axis=1) for side in (a, b, c))
+    volume = np.einsum("ij,ij->i", a, np.cross(b, c))
+    dots = [np.einsum("ij,ij->i", *pair) for pair in ((a, b), (b, c), (c, a))]
+    return float(np.arctan2(volume, p * q * r + dots[0] * r + dots[1] * p + dots[2] * q).sum() / (2 * np.pi))
+
+
+def _turned(surface, parts):
+    """The surface with the faces of some parts the other way round."""
+    is_wrong = np.isin(surface.face_index, np.concatenate([part.face_index for part in parts]))
+    starts, ends = surface.face_offsets[:-1], surface.face_offsets[1:]
+    corners = np.arange(len(surface.corner_vertices))
+    back = np.where(np.repeat(is_wrong, ends - starts), np.repeat(starts + ends - 1, ends - starts) - corners, corners)
+    return Surface.from_polygons(surface.vertices, surface.corner_vertices[back], surface.face_offsets, strict=False)

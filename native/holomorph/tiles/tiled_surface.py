@@ -1,0 +1,235 @@
+"""A surface under a tiling, and what lies in its tiles."""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import _native
+from .._native import TopologyError
+from ..core import arrays
+from ..core.array_types import Integers, Progress, Reals
+from ..core.value import Value, counted, quoted
+from ..mesh.checks import check_options, check_type
+from ..mesh.surface import Surface
+from ..tiling.tiling_options import MOST_PER_TILE, generators
+from .cells import Cells
+from .lines import Lines
+from .places import Places
+from .relief import Relief, raised
+
+
+class TiledSurface(Value):
+    """A surface with UVs that jump by whole tiles only, also those of a file: `Map.tiled` of a map that is a tiling.
+
+    What is looked for in the tiles is decided exactly, so that everything is found once, on both sides of every seam.
+
+    Parameters
+    ----------
+    surface : Surface with positions
+    uv : (#C, 2) UVs at the polygon corners, also in single precision; vertices at which they do not close up by whole
+        tiles are the poles
+    lattice : of the texture, as in `Structure.tile`: a tile is the parallelogram of its two translations, by default
+        the unit square
+    threads : number of threads; None for all processors. No result depends on it
+
+    Raises TopologyError for a surface without positions, and for UVs that are not a tiling: where they jump by parts of
+    a tile, or differently at the two ends of an edge, or two poles are neighbours or one lies on the boundary;
+    ValueError.
+    """
+
+    def __init__(
+        self, surface: Surface, uv: ArrayLike, lattice: str | ArrayLike = "square", threads: int | None = None
+    ) -> None:
+        check_type(surface, Surface)
+        if surface.vertices is None:
+            raise TopologyError("tiles need a surface with positions; this one has edge lengths only")
+        self._threads = check_options("auto", threads)
+        given, count = arrays.numbers(uv, "uv"), len(surface.corner_vertices)
+        if given.shape != (count, 2):
+            raise ValueError(f"uv has the shape {given.shape}; ({count}, 2) is needed")
+        self.surface: Surface = surface
+        self.uv: Reals = arrays.frozen(given.copy()) if given.flags.writeable else given
+        a, b = generators(lattice)
+        self.lattice: Reals = arrays.frozen(np.array([[a.real, b.real], [a.imag, b.imag]]))
+        self.poles: Integers = self._coordinates().poles()
+
+    def _facts(self):
+        return [repr(self.surface), counted(len(self.poles), "pole")]
+
+    @cached_property
+    def pole_distances(self) -> Reals:
+        """(#V,) length of the shortest way along edges to a pole; infinite where there is none."""
+        native = self.surface._native
+        return arrays.frozen(native.edge_distances(native.edge_lengths, self.poles.tolist()))
+
+    def places(
+        self,
+        per_tile: tuple[int, int] = (1, 1),
+        offset: tuple[float, float] = (0.5, 0.5),
+        shifted_rows: bool = False,
+    ) -> Places:
+        """The points of the surface at regular places in the tiles, each once: see `Places`.
+
+        per_tile : columns and rows of places in a tile
+        offset : of a place in its column and row, from 0 to 1: (0.5, 0.5) for the middles of the tiles, (0, 0) for
+            their corners, (0.5, 0) and (0, 0.5) for the middles of their sides
+        shifted_rows : every other row is moved by half a column, as bricks are; their number in a tile must be even
+
+        Raises ValueError for others. Cost: linear in triangles and places.
+        """
+        columns, rows = _grid(per_tile, shifted_rows)
+        offset = arrays.numbers(_pair(offset, "offset"), "offset")
+        if not np.isfinite(offset).all():
+            raise ValueError(f"offset is {tuple(offset)}; two finite numbers are needed")
+        shift = rows // 2 if shifted_rows else 0
+        coordinates = self._coordinates(((columns, -shift), (0, rows)), offset / (columns, rows))
+        found = _native.places(self.surface._native, coordinates, threads=self._threads)
+        numbers = found.numbers
+        row = (numbers[:, 1] + offset[1]) / rows
+        column = (numbers[:, 0] + offset[0] + (numbers[:, 1] / 2 if shifted_rows else 0)) / columns
+        inside = np.stack([column, row], axis=1)
+        return Places(
+            triangles=found.triangles,
+            barycentric=found.barycentric,
+            tiles=arrays.frozen(np.floor(inside).astype(np.int64)),
+            uv=arrays.frozen(inside @ self.lattice.T),
+            flipped=found.flipped,
+            tiled=self,
+            _numbers=numbers,
+        )
+
+    def lines(self, direction: str | Sequence[int] = "u", per_tile: int = 1) -> Lines:
+        """The lines between the tiles in one direction, as curves on the surface: see `Lines`.
+
+        direction : "u" for lines along the first vector of the lattice, "v" along the second, or two whole numbers
+            without a common divisor: how many of each
+        per_tile : as many lines for each tile, the first between tiles
+
+        Raises ValueError for others; SolverError for too many points. Cost: linear in triangles and points.
+        """
+        a, b = _direction(direction)
+        count = _count(per_tile, "per_tile")
+        coordinates = self._coordinates(((count * b, -count * a), (0, 0)))
+        found = _native.lines(self.surface._native, coordinates, threads=self._threads)
+        return Lines(
+            offsets=found.offsets,
+            is_closed=arrays.frozen(found.is_closed.astype(bool)),
+            triangles=found.triangles,
+            barycentric=found.barycentric,
+            tiled=self,
+        )
+
+    def cells(self, per_tile: tuple[int, int] = (1, 1), shifted_rows: bool = False) -> Cells:
+        """The surface with one polygon for each tile: see `Cells`.
+
+        per_tile, shifted_rows : as of `places`, which are the middles: with shifted rows cells are bricks
+
+        Raises ValueError for others; SolverError for too many. Cost: linear in triangles and their pieces.
+        """
+        columns, rows = _grid(per_tile, shifted_rows)
+        parts = 2 if shifted_rows else 1  # of the columns: rows of bricks begin with the first or the second
+        coordinates = self._coordinates(((parts * columns, 0), (0, rows)))
+        found = _native.cells(self.surface._native, coordinates, bricks=shifted_rows, threads=self._threads)
+        points, first, is_whole = found.corner_points, found.offsets[:-1], found.is_whole.astype(bool)
+        is_line = points == np.rint(points)
+        if shifted_rows:
+            is_line[:, 0] &= (points[:, 0] + np.repeat(found.tiles[:, 1], np.diff(found.offsets))) % 2 == 0
+        is_corner = is_line.all(axis=1)
+        is_tile = np.logical_and.reduceat(is_line.any(axis=1), first) & is_whole & (found.poles < 0)
+        return Cells(
+            corner_vertices=found.corner_vertices,
+            face_offsets=found.offsets,
+            uv=arrays.frozen(points / (parts * columns, rows) @ self.lattice.T),
+            is_corner=arrays.frozen(is_corner),
+            tiles=arrays.frozen((found.tiles + (parts // 2, 0)) // (parts * columns, rows)),
+            poles=found.poles,
+            is_quad=arrays.frozen(is_tile & (np.add.reduceat(is_corner.astype(int), first) == 4)),
+            is_whole=arrays.frozen(is_whole),
+            triangles=found.triangles,
+            barycentric=found.barycentric,
+            tiled=self,
+            _is_needed=arrays.frozen(found.is_needed.astype(bool)),
+        )
+
+    def relief(
+        self,
+        heights: ArrayLike,
+        depth: float,
+        *,
+        repeats: int = 1,
+        level: float = 0.0,
+        tolerance: float = 0.02,
+        most_triangles: int = 1_000_000,
+        pole_fade: float = 0.25,
+        progress: Progress | None = None,
+    ) -> Relief:
+        """The surface raised along its normals by a picture in every tile, refined where that asks for it: see
+        `Relief`. As tiles are whole, it closes up everywhere.
+
+        heights : (rows, columns) from 0 to 1, the top row first, bilinear between the middles of pixels: over a tile,
+            which is a parallelogram where the lattice is not square
+        repeats : how often the picture lies in a tile, along each of its sides
+        depth : by which a height of 1 is raised, in the unit of the positions, on the side from which triangles are
+            counter-clockwise
+        level : the height that stays on the surface: 0 raises all, 1 engraves all
+        tolerance : of heights; triangles are halved until they are off by less, or their sides are below a pixel
+        most_triangles : where that takes more, those that are farthest off are halved first
+        pole_fade : in tiles: around a pole, whose triangles stay as they are, heights rise to their own over so much
+
+        Raises ValueError for others, a picture with the same height everywhere, or a depth above the size of the mesh;
+        Cancelled. Cost: n log n in the triangles that are made.
+        """
+        count = _count(repeats, "repeats")
+        return raised(self, heights, depth, count, level, tolerance, most_triangles, pole_fade, progress)
+
+    def _coordinates(self, steps=((1, 0), (0, 1)), origin=(0.0, 0.0)):
+        return _native.tile_coordinates(
+            self.surface._native,
+            self.uv,
+            inverse_lattice=np.linalg.inv(self.lattice),
+            origin=np.asarray(origin, float),
+            steps=np.asarray(steps, np.int32),
+            threads=self._threads,
+        )
+
+
+def _pair(values, name):
+    if np.shape(values) != (2,):
+        raise ValueError(f"{name} is {quoted(values)}; two numbers are needed")
+    return values
+
+
+def _grid(per_tile, shifted_rows):
+    columns, rows = (_count(number, "per_tile") for number in _pair(per_tile, "per_tile"))
+    if shifted_rows and rows % 2:
+        raise ValueError(f"shifted rows need an even number of rows per tile; per_tile is {per_tile}")
+    return columns, rows
+
+
+def _direction(direction):
+    given = {"u": (1, 0), "v": (0, 1)}.get(direction, direction) if isinstance(direction, str) else direction
+    if not isinstance(given, str) and np.shape(given) == (2,):
+        a, b = given
+        whole = all(isinstance(number, (int, np.integer)) and abs(number) <= MOST_PER_TILE for number in given)
+        if whole and math.gcd(a, b) == 1:
+            return int(a), int(b)
+    raise ValueError(
+        f'direction is {quoted(direction)}; "u", "v", or two whole numbers without a common divisor, up to '
+        f"{MOST_PER_TILE}, are needed"
+    )
+
+
+def _count(value, name):
+    try:
+        count = operator.index(value)
+    except TypeError:
+        count = 0
+    if not 1 <= count <= MOST_PER_TILE:
+        raise ValueError(f"{name} has {quoted(value)}; whole numbers from 1 to {MOST_PER_TILE} are needed")
+    return count

@@ -1,0 +1,1 @@
+"""Seamless tilings, their direction and their evenness."""

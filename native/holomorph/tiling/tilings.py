@@ -1,0 +1,95 @@
+"""Seamless tilings: UV maps whose jumps all are translations of the texture, of even density."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..core.array_types import Complexes, Integers, Reals
+from ..core.value import Value, counted
+from ..quality.quality import Quality
+from ..quality.verdicts import Verdict, verdict
+
+
+@dataclass(frozen=True, repr=False)
+class Rounding(Value):
+    """How the whole numbers of a tiling were found.
+
+    integers : how many there are, for periods and residues
+    blocks : 1 where their lattice was reduced as a whole; else the number of parts, reduced one by one, as a whole
+        took too long
+    steps : of the reductions
+    excess : how much further from the map without rounding one is than in a lattice of orthogonal vectors, which would
+        be 1: root mean square over geometric mean of the reduced basis's orthogonal lengths
+    """
+
+    integers: int
+    blocks: int
+    steps: int
+    excess: float
+
+    def _facts(self):
+        return [counted(self.integers, "integer"), counted(self.blocks, "block"), f"excess {self.excess:.4g}"]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Tiling(Value):
+    """Result of `tile`. All arrays are read-only.
+
+    uv : (#C, 2) UVs: one tile of the texture is the unit square. Multiply them by integers only, and move them by
+        integers only: else seams show. Rounded to single precision, the two sides of a cut still differ by whole tiles
+    periods : (2g + b - 1, 2) integers: the jumps of (u, v) along the loops of a homology basis, in vectors of the
+        lattice
+    poles : (k,) vertices around which the texture closes up only by whole tiles; the density grows towards them
+    residues : (k,) complex points of the lattice: by how much the UVs change around each pole, counter-clockwise
+    zeros : ((k,) vertices, (k,) orders): where the texture branches, around 2 pi (order + 1)
+    evenness : from 0, conformal, to 1: how far squares of one size were preferred to angles
+    added_distortion : mean s1 / s2 over the area that the rounding to integers alone would give; 1 where it costs none
+    beltrami_rms : root mean square of the Beltrami coefficient of the rounding
+    optimal_density_ratio : 95 % over 5 % quantile of the density that these poles allow without integers
+    rounding : `Rounding`
+    tiles : the number of tiles that was aimed at: area times median density
+    quality : `Quality` on the triangles of the surface, diagonals flipped away from the poles
+    seams : (#S, 2) vertices of the edges where the UVs jump
+    lattice : (2, 2) reals, whose columns are the translations by which they may
+    """
+
+    uv: Reals
+    periods: Integers
+    poles: Integers
+    residues: Complexes
+    zeros: tuple[Integers, Integers]
+    evenness: float
+    added_distortion: float
+    beltrami_rms: float
+    optimal_density_ratio: float
+    rounding: Rounding
+    tiles: float
+    quality: Quality
+    seams: Integers
+    lattice: Reals
+
+    def _facts(self):
+        size = f"{self.tiles:.4g} tiles, {counted(len(self.poles), 'pole')}"
+        return [size, f"density ratio {self.density_ratio:.4g}", f"mean s1/s2 {self.quality.mean_angle:.4g}"]
+
+    @property
+    def density_ratio(self) -> float:
+        """95 % over 5 % quantile of s1 s2 by area."""
+        return self.quality.density_ratio
+
+    @property
+    def verdict(self) -> Verdict:
+        """The `Verdict` on the map."""
+        return verdict(self.quality, len(self.poles), self.added_distortion)
+
+
+@dataclass(frozen=True, repr=False)
+class PlacedPoles(Value):
+    """Vertices, complex residues up to a common factor, and the density ratio that they allow."""
+
+    vertices: Integers
+    residues: Complexes
+    density_ratio: float
+
+    def _facts(self):
+        return [counted(len(self.vertices), "pole"), f"density ratio {self.density_ratio:.4g}"]
