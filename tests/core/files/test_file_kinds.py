@@ -181,6 +181,24 @@ def test_the_coloured_ones_say_what_is_not_kept(tmp_path):
     assert "colours" in told(read(tmp_path, "a.off", coloured))
 
 
+MAPPED = {
+    "own.ply": None,
+    "of vertices.ply": PLY_TEXT.replace(b"uchar red", b"uchar texture_u"),
+    "of faces.ply": PLY_TEXT.replace(b"float weight", b"list uchar float texcoord").replace(b" 0.5\n", b" 2 0.5 0.5\n"),
+    "of vertices.off": off(MIXED, head="STOFF\n{} {} 0\n", vertex="{!r} {!r} {!r} 0.5 0.5"),
+}
+
+
+@pytest.mark.parametrize("name", MAPPED)
+def test_a_map_is_not_kept_and_that_is_told(name, tmp_path):
+    content = MAPPED[name]
+    if content is None:
+        whole = read(tmp_path, "a.obj", OBJ)
+        whole.write(tmp_path / name, np.zeros((len(whole.corner_vertices), 2)))
+        content = (tmp_path / name).read_bytes()
+    assert "its UVs are not read" in told(read(tmp_path, name, content))
+
+
 def test_faces_and_vertices_have_the_numbers_of_the_file(tmp_path):
     """OBJ counts from 1; an STL file has triangles without extent, which are left out before those after them."""
     surface = read(tmp_path, "a.obj", OBJ + b"f 1 2 99\n")

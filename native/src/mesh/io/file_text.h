@@ -11,6 +11,9 @@ namespace holomorph::mesh {
 /// What a reader notes of a file whose vertices have colours.
 inline constexpr std::string_view kColours = "the colours of its vertices are not read";
 
+/// What a reader of PLY or OFF notes of a file with UVs.
+inline constexpr std::string_view kUvs = "its UVs are not read";
+
 /// A file in memory and the name that errors call it by.
 struct FileText {
   std::string name;

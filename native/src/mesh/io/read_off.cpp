@@ -3,6 +3,9 @@
 #include "mesh/io/read_off.h"
 
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "mesh/io/scanner.h"
 
@@ -14,12 +17,12 @@ constexpr std::size_t shortest_vertex = 6;  // bytes of "0 0 0\n"
 constexpr std::size_t shortest_word = 2;    // bytes of "0\n"
 
 /// The keyword is optional: a file may start with its counts. Prefixes announce values after the position (ST, C, N).
-/// @return whether the vertices have colours
-bool read_header(const FileText& file, Scanner& scan) {
+/// @return notes of what the vertices have that is not read
+std::vector<std::string> read_header(const FileText& file, Scanner& scan) {
   Scanner ahead = scan;
   if (ahead.at_end()) file.fail("the file is empty");
   auto keyword = ahead.word();
-  if (keyword.find_first_not_of("+0123456789") == std::string_view::npos) return false;
+  if (keyword.find_first_not_of("+0123456789") == std::string_view::npos) return {};
   const auto whole = keyword;
   for (const std::string_view prefix : {"ST", "C", "N"})
     if (keyword.starts_with(prefix)) keyword.remove_prefix(prefix.size());
@@ -29,7 +32,10 @@ bool read_header(const FileText& file, Scanner& scan) {
   Scanner after = ahead;
   if (after.word() == "BINARY") after.fail("binary OFF files cannot be read; save the mesh as text");
   scan = ahead;
-  return whole.starts_with("C") || whole.starts_with("STC");
+  std::vector<std::string> notes;
+  if (whole.starts_with("C") || whole.starts_with("STC")) notes.emplace_back(kColours);
+  if (whole.starts_with("ST")) notes.emplace_back(kUvs);
+  return notes;
 }
 
 void read_vertices(Scanner& scan, std::int64_t count, GivenPolygons& mesh) {
@@ -64,14 +70,14 @@ void read_faces(Scanner& scan, std::int64_t count, GivenPolygons& mesh) {
 GivenPolygons read_off(const FileText& file) {
   file.check_encoding();
   Scanner scan(file, Comments::after_hash);
-  const bool is_coloured = read_header(file, scan);
+  auto notes = read_header(file, scan);
   const auto vertices =
       scan.count(scan.word_on_any_line("the number of vertices"), "the number of vertices", shortest_vertex);
   const auto faces = scan.count(scan.word_on_any_line("the number of faces"), "the number of faces", shortest_word);
   scan.next_line();  // past the number of edges, which nobody needs
 
   GivenPolygons mesh;
-  if (is_coloured) mesh.file.notes.emplace_back(kColours);
+  mesh.file.notes = std::move(notes);
   read_vertices(scan, vertices, mesh);
   read_faces(scan, faces, mesh);
   if (!scan.at_end())

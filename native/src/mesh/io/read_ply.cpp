@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <initializer_list>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "mesh/io/ply_binary_values.h"
 #include "mesh/io/ply_header.h"
@@ -48,6 +51,24 @@ std::size_t property_named(const Element& element, std::string_view name, const 
   file.fail("the element 'vertex' has no property '" + std::string(name) + "'");
 }
 
+bool has_one_of(const Element& element, std::initializer_list<std::string_view> names) {
+  return std::any_of(element.properties.begin(), element.properties.end(), [&](const Property& property) {
+    return std::find(names.begin(), names.end(), property.name) != names.end();
+  });
+}
+
+/// Notes colours and UVs, by the names that programs give them.
+void note_unread(const Header& header, std::vector<std::string>& notes) {
+  bool is_coloured = false, is_mapped = false;
+  for (const auto& element : header.elements) {
+    const bool is_vertex = element.name == "vertex";
+    is_coloured |= is_vertex && has_one_of(element, {"red", "r"});
+    is_mapped |= is_vertex ? has_one_of(element, {"s", "u", "texture_u"}) : has_one_of(element, {"texcoord"});
+  }
+  if (is_coloured) notes.emplace_back(kColours);
+  if (is_mapped) notes.emplace_back(kUvs);
+}
+
 std::size_t polygon_list(const Element& element, const FileText& file) {
   for (std::size_t p = 0; p < element.properties.size(); ++p) {
     const auto& property = element.properties[p];
@@ -64,8 +85,6 @@ void read_vertices(Values& values, const Element& element, const FileText& file,
   axis[property_named(element, "x", file)] = 0;
   axis[property_named(element, "y", file)] = 1;
   axis[property_named(element, "z", file)] = 2;
-  const auto is_red = [](const Property& property) { return property.name == "red" || property.name == "r"; };
-  if (std::any_of(element.properties.begin(), element.properties.end(), is_red)) mesh.file.notes.emplace_back(kColours);
   mesh.vertices.resize(static_cast<std::size_t>(element.count));
   for (std::int64_t row = 0; row < element.count; ++row) {
     values.enter_row(row);
@@ -137,6 +156,7 @@ template <class Values>
 GivenPolygons read_body(const FileText& file, const Header& header) {
   Values values(file, header);
   GivenPolygons mesh;
+  note_unread(header, mesh.file.notes);
   mesh.face_offsets.push_back(0);
   for (const auto& element : header.elements) {
     values.enter(element);
