@@ -27,8 +27,8 @@ def squares(right, up):
     return flat_cones.jittered(families.square_tiled(right, up, 4), seed=0)
 
 
-# y^2 = x^7 - 1 and x^7 - x; three holes in a row, which a half turn about their row keeps; stairs of five squares, whose
-# half turn fixes 5 middles of squares, 2 of edges and the cone point.
+# y^2 = x^7 - 1 and x^7 - x; three holes in a row, which a half turn about their row keeps; stairs of five squares: a
+# half turn fixes the middles of all, those of 2 edges, and the cone point.
 HYPERELLIPTIC = {
     "14-gon": lambda: flat_cones.regular_polygon(14),
     "12-gon": lambda: flat_cones.regular_polygon(12),
