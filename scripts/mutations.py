@@ -148,7 +148,7 @@ MUTATIONS = (
         ("worst-part", "ranks.max() > rank", "ranks.min() > rank", VERDICT),
     )
     | of(
-        PACKAGE + "maps/sizing.py",
+        PACKAGE + "maps/size.py",
         ("like-size", "LIKE_SIZE = 1.095", "LIKE_SIZE = 1.19", SIZING),
     )
     | of(

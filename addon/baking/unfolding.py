@@ -111,7 +111,7 @@ def _edges(face_offsets, uv):
 
 def _overlaps(border):
     library = native.load()
-    return len(border) > 0 and library.overlap.overlapping_part(border) > library.appearance.ROUNDING
+    return len(border) > 0 and library.quality.overlap.overlapping_part(border) > library.quality.appearance.ROUNDING
 
 
 def _middles(polygons):

@@ -55,7 +55,7 @@ class LevelsWork(jobs.Work):
         start = SOLVE_PART if self.needs_map else 0.0
         if self.needs_map:
             solved = jobs.solved(self.task, self.part(0, start))
-            self.mapped = mapped.mapped(solved, MapOptions(forms=0, main=BALANCED))
+            (self.mapped,) = mapped.mapped([solved], [MapOptions(forms=0, main=BALANCED)])
             self._add_main_map()
         surface = self.task.polygons.surface()
         if not self.names:

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The maps of a solve: the main one, of tilings or of forms part by part, and those of single forms. No bpy here."""
+"""The maps of solves: the main one, of tilings or of forms part by part, and those of single forms. No bpy here."""
 
-import math
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 
 from .. import native
 from ..scene.uv_maps import MAIN_MAP
 from . import forms
-from .options import AUTOMATIC, BALANCED, SEAMLESS, TILING, MapOptions, dials
+from .options import AUTOMATIC, BALANCED, SEAMLESS, TILING, MapOptions
 
 MIXED_EVENED = 20_000  # triangles up to which maps are evened while forms are mixed: it takes 0.2 s
 
@@ -71,17 +70,12 @@ class MappedObject:
         without area."""
         return native.load().arrangement.unit_length(self.part_maps, self.options.arrangement)
 
-    @property
-    def filling(self):
-        """`options.MapOptions.per_length` with which maps of forms fill the UV square; infinite where none has area."""
-        return native.load().arrangement.square(self.part_maps, self.options.arrangement).filling
-
     def of_forms(self):
         """The same parts with maps of forms alone."""
         if not self.tiled:
             return self
         conformal = replace(self.options.tiling, evenness=0.0)
-        return mapped(self.solved, replace(self.options, main=BALANCED, tiling=conformal))
+        return mapped([self.solved], [replace(self.options, main=BALANCED, tiling=conformal)])[0]
 
     def maps(self):
         """Yields (name, (#C, 2) float32) for every map, the main one first; parts that lack it are zero there."""
@@ -101,137 +95,118 @@ class MappedObject:
         return len(self.solved.polygons.corner_vertices)
 
 
-class Mapper:
-    """Makes the `MappedObject` of one solve after the other. Where their texels are to be equal, a number of tiles is
-    over all of them: the one with the largest part is made with its share, and the others with the density of that."""
+def follow(options, is_equal=False):
+    """What follows the solves of a `jobs.Job`: the `mapped` ones, by options for each of its tasks."""
 
-    def __init__(self, is_equal=True):
-        self._is_equal = is_equal
-        self._area = self._wanted = 0.0  # the area of all objects; tiles for an area that are asked for
-        self._density = self._per_length = 0.0  # tiles for an area, and UV units for a length, once one is made
+    def then(found, progress):
+        own = [options[k] for k in found]
+        return dict(zip(found, mapped(list(found.values()), own, is_equal, progress)))
 
-    def plan(self, solved):
-        """The order in which to map: indices of `{index: solve.SolvedObject}`."""
-        if not self._is_equal:
-            return list(solved)
-        surfaces = [component.surface for one in solved.values() for component in one.done]
-        self._area = sum(surface.area for surface in surfaces)
-        self._wanted = native.load().maps.sizing.usual_density(surfaces)
-        return sorted(solved, key=lambda index: -max((part.area for part in solved[index].done), default=0.0))
-
-    def __call__(self, solved, options, progress=None):
-        if not self._is_equal:
-            return mapped(solved, options, progress)
-        made = mapped(solved, replace(options, tiling=self._shared(solved, options.tiling)), progress)
-        self._density = self._density or _middle_density(made) or self._asked(options.tiling)
-        if made.tiled and not self._per_length and made.unit_length > 0:
-            self._per_length = 1 / made.unit_length
-        return made
-
-    def _shared(self, solved, wanted):
-        """The `options.TileOptions` for one of the objects."""
-        if self._density:
-            return replace(wanted, density=self._density, tiles=0.0, is_shared=True)
-        share = sum(component.area for component in solved.done) / self._area if self._area else 1.0
-        return replace(wanted, tiles=share * wanted.tiles)
-
-    def _asked(self, wanted):
-        if wanted.density:
-            return wanted.density
-        return wanted.tiles / self._area if wanted.tiles and self._area else self._wanted
-
-    def equalised(self, results):
-        """The same results, but that the maps of forms in them have one texel density."""
-        found = [made for made in results if isinstance(made, MappedObject) and made.done]
-        if not self._is_equal or len(found) < 2:
-            return results
-        per_length = self._per_length or min(made.filling for made in found)
-        if not math.isfinite(per_length):
-            return results
-        return [_with_length(made, per_length) if isinstance(made, MappedObject) else made for made in results]
+    return then
 
 
-def _with_length(made, per_length):
-    return replace(made, options=replace(made.options, per_length=per_length))
+def mapped(solved, options, is_equal=False, progress=None):
+    """The `MappedObject`s of solves by the options of each. What was made is kept with them: a second call is quick.
+
+    is_equal : whether squares have one size over all objects, so that a number of tiles is over all of them
+    """
+    keys, count = [_asked(*each) for each in zip(solved, options)], len(solved)
+    groups = [list(range(count))] if is_equal else [[k] for k in range(count)]
+    scaled, areas, done, made = native.load().core.progress.scaled, [_area(one) for one in solved], 0.0, []
+    for group in groups:
+        share = sum(areas[k] for k in group) / (sum(areas) or 1.0)
+        own = [solved[k] for k in group], [options[k] for k in group], [keys[k] for k in group]
+        made += _mapped_together(*own, scaled(progress, done, done + share))
+        done += share
+    return _of_one_length(made) if is_equal and count > 1 else made
 
 
-def _middle_density(made):
-    """Tiles for an area, from which no tiling of an object is far; 0 without one."""
-    found = [part.map.density for part in made.tiled]
-    return math.sqrt(min(found) * max(found)) if found else 0.0
+def _area(solved):
+    return sum(component.area for component in solved.done)
 
 
-def mapped(solved, options, progress=None):
-    """The `MappedObject` of a solve. What was made is kept with it: a second call is quick."""
+def _asked(solved, options):
+    """What decides how the parts of a solve are mapped, before they are laid out."""
     mains = tuple(_main(component, options) for component in solved.done)
-    asked = mains, options.main == TILING, options.tiling.made, options.amounts, options.turns
-    if asked not in solved.maps:
-        solved.keep_maps(asked, _parts(solved.done, mains, options, progress))
-    made = iter(solved.maps[asked])
-    parts = [MappedPart(one, skipped=one.reason) if one.structure is None else next(made) for one in solved.components]
-    return MappedObject(solved, options, tuple(parts))
+    return solved.number, mains, options.main == TILING, options.tiling.made, options.amounts, options.turns
+
+
+def _mapped_together(solved, options, keys, progress):
+    """With squares of one size. Maps are kept with each solve, under what was asked of all of them."""
+    together = tuple(keys)
+    if not all((key[0], together) in one.maps for key, one in zip(keys, solved)):
+        for key, one, kept in zip(keys, solved, _made(solved, options, progress)):
+            one.keep_maps((key[0], together), kept)
+    return [_object(one, own, *one.maps[key[0], together]) for one, own, key in zip(solved, options, keys)]
+
+
+def _object(solved, options, parts, size):
+    """The `MappedObject`, also of the parts that have no structure."""
+    made, tiling = iter(parts), replace(options.tiling, size=size)
+    every = [MappedPart(one, skipped=one.reason) if one.structure is None else next(made) for one in solved.components]
+    return MappedObject(solved, replace(options, tiling=tiling), tuple(every))
+
+
+def _of_one_length(made):
+    """The same objects, but that maps of forms have one texel density: that of the tilings, or the largest with which
+    each object has room."""
+    found = [one for one in made if one.done]
+    maps = [one.part_maps for one in found]
+    per_length = native.load().arrangement.common_length(maps, found[0].options.arrangement) if found else 0.0
+    return [replace(one, options=replace(one.options, per_length=per_length)) for one in made]
 
 
 def _main(component, options):
-    """The main map that the library is asked for, "" for one of forms."""
+    """The main map that the library is asked for."""
     is_plain = options.are_plain and not component.is_chosen and component.area > 0
-    return MAINS.get(options.main, "") if is_plain or options.main != AUTOMATIC else ""
+    return MAINS.get(options.main, "balanced") if is_plain or options.main != AUTOMATIC else "balanced"
 
 
-def _parts(components, mains, options, progress):
-    """The `MappedPart`s; refusals are told. What no tiling fits gets another map, if what is chosen fits anywhere."""
-    found = _tilings([pair for pair in zip(components, mains) if pair[1]], options, progress)
-    made = [next(found) if main else None for main in mains]
-    reasons = [_refusal(one) for one in made]
+def _made(solved, options, progress):
+    """[(the `MappedPart`s of the `done` components, the size with which they are the same alone)] of each solve.
+    Refusals are told. What no tiling fits gets another map, if what is chosen fits anywhere."""
+    holomorph, wanted = native.load(), options[0].tiling
+    components = [one.done for one in solved]
+    wishes = [[_wish(part, own) for part in parts] for parts, own in zip(components, options)]
+    size = wanted.size and holomorph.maps.size.SizePolicy(*wanted.size)
+    if not size:
+        surfaces = [part.surface for parts in components for part in parts]
+        tiles = None if wanted.density else wanted.tiles or None
+        size = holomorph.maps.size.SizePolicy.of(surfaces, tiles, wanted.density or None)
+    found = holomorph.maps.map_objects.map_objects(wishes, size, progress=progress)
+    return [(_parts(*each, maps), astuple(own)) for *each, (maps, own) in zip(components, wishes, options, found)]
+
+
+def _parts(components, wishes, options, made):
+    """The `MappedPart`s of one object."""
+    reasons = ["" if hasattr(one, "uv") else native.sentence(one) for one in made]
     if options.main == TILING and options.tiling.is_chosen and all(reasons):
         return [MappedPart(component, skipped=reason) for component, reason in zip(components, reasons)]
-    return [_part(*each, options, progress) for each in zip(components, made, reasons)]
+    return [_part(*each) for each in zip(components, wishes, made, reasons)]
 
 
-def _refusal(made):
-    return native.sentence(made) if isinstance(made, native.load().Error) else ""
-
-
-def _part(component, made, refusal, options, progress):
-    """With another map than a tiling that is refused; of forms where none is asked for."""
+def _part(component, wish, made, refusal):
+    """With another map than a tiling that is refused."""
+    if refusal and wish.main == "balanced":
+        return MappedPart(component, skipped=refusal)
     if refusal:
-        of_part, dial = (component.surface, component.structure), dials(options.tiling)
-        made = native.load().automatic_map(*of_part, main="untiled", **dial)
-    elif made is None:
-        made = _form_map(component, options, progress)
+        made = native.load().automatic_map(wish.surface, wish.structure, main="untiled", evenness=wish.evenness)
     return MappedPart(component, made, not_seamless=refusal)
 
 
-def _form_map(component, options, progress):
-    """The `holomorph.Map` of forms; evening is the last part of the work."""
-    is_slow = options.are_mixed and len(component.surface.triangles) > MIXED_EVENED
-    return native.load().form_map(
+def _wish(component, options):
+    """The `holomorph.maps.map_objects.Wish` for a part. Evening is slow while forms are mixed."""
+    main, wanted = _main(component, options), options.tiling
+    is_slow = main == "balanced" and options.are_mixed and len(component.surface.triangles) > MIXED_EVENED
+    made = native.load().maps.automatic_maps.wish_of_part(
         component.surface,
         component.structure,
-        forms.coefficients(component, options),
-        evenness=0.0 if is_slow else options.tiling.evenness,
-        progress=native.load().core.progress.scaled(progress, 1.0, 1.0),
+        main,
+        wanted.poles,
+        None if wanted.allowed is None else np.frombuffer(wanted.allowed, bool),
+        wanted.moved,
+        0.0 if is_slow else wanted.evenness,
+        wanted.direction,
+        {"lattice": wanted.lattice, "boundary": wanted.boundary, "turn": wanted.turn or None},
     )
-
-
-def _tilings(asked, options, progress):
-    """An iterator over what `holomorph.automatic_maps` gives for pairs of a component and its main map."""
-    wanted, components = options.tiling, [component for component, _ in asked]
-    made = native.load().automatic_maps(
-        [component.surface for component in components],
-        [component.structure for component in components],
-        main=[main for _, main in asked],
-        tiles=None if wanted.density else wanted.tiles or None,
-        density=wanted.density or None,
-        **({"density_tolerance": 0.0} if wanted.is_shared else {}),
-        poles=wanted.poles,
-        allowed=None if wanted.allowed is None else np.frombuffer(wanted.allowed, bool),
-        moves=wanted.moved,
-        lattice=wanted.lattice,
-        direction=wanted.direction,
-        boundary=wanted.boundary,
-        turn=wanted.turn or None,
-        progress=progress,
-        **dials(wanted),
-    )
-    return iter(made)
+    return replace(made, coefficients=forms.coefficients(component, options)) if main == "balanced" else made

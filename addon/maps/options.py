@@ -23,7 +23,7 @@ class TileOptions:
 
     tiles: float = 0.0  # tiles over the whole object; 0 lets the library choose
     density: float = 0.0  # tiles for an area, instead; 0 for their number
-    is_shared: bool = False  # whether that is the density of another object
+    size: tuple = ()  # values of a `holomorph.maps.size.SizePolicy` that counts instead, as it was found with others
     poles: object = "auto"  # or a number for each part, or a tuple of vertices of the object
     lattice: object = "square"  # a name, or its (2, 2) matrix as tuples
     direction: object = "upright"  # or a vector in the frame of the solved polygons, or None

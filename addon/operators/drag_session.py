@@ -2,7 +2,6 @@
 """A tiling while its poles are dragged: what there was, what comes of a move, and its end. No events in here."""
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
@@ -75,7 +74,7 @@ class Session:
         earlier session stays there."""
         asked = replace(self._asked, moved=self._earlier_and(moves) if moves else self._asked.moved)
         options = MapOptions(forms=0, main=TILING, tiling=asked)
-        return jobs.Job([self._task], then=[partial(mapped.mapped, options=options)])
+        return jobs.Job([self._task], then=mapped.follow([options]))
 
     def _earlier_and(self, moves):
         """((index in its part, vertex), ...): an earlier move of a pole gives way to a new one."""

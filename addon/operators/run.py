@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How maps are made: a request, the solves, the maps, writing, the report."""
 
-from functools import partial
-
 from ..maps import mapped
 from ..results import write
 from ..scene import targets
@@ -18,13 +16,12 @@ class Run:
 
     def __init__(self, properties, found, own=None):
         self.tasks, self._found, self._properties, self._own = targets.tasks(found), found, properties, own
-        self._choices, self._mapper = properties.choices(), mapped.Mapper(properties.equal)
+        self._choices = properties.choices()
         self._options = [self._choices.options(properties, target, own) for target in found if not target.refused]
 
     def job(self, progress=None):
         """The `jobs.Job` that solves and maps."""
-        then = [partial(self._mapper, options=options) for options in self._options]
-        return jobs.Job(self.tasks, progress, then, self._mapper.plan)
+        return jobs.Job(self.tasks, progress, mapped.follow(self._options, self._properties.equal))
 
     @property
     def objects(self):
@@ -33,6 +30,6 @@ class Run:
 
     def write(self, step, job, time_has_passed=False):
         """Writes the results of the job, in a `transaction.Step` of the objects. Returns the `outcome.Outcome`."""
-        results = targets.align(self._found, self._mapper.equalised(job.results))
+        results = targets.align(self._found, job.results)
         options = self._choices.write_options(self._properties, self._own)
         return write.write(step, self._found, results, options, time_has_passed)

@@ -73,47 +73,43 @@ def solved(task, ask):
 
 
 class Job(Work):
-    """Solves a list of `solve.Task` one after the other, and then goes on with the solve of `tasks[i]` as the function
-    `then[i](solved, progress=...)` does, if there is one.
+    """Solves a list of `solve.Task` one after the other, and then goes on with all solves as the function `then` does,
+    if there is one: from {i: SolvedObject} of `tasks[i]`, and a function like `ask`, it makes {i: result}.
 
-    `results[i]` is what that gives, or the `SolvedObject`; or the error that refused the mesh, one of
-    `native.refusals`.
-
-    plan(solved) : the indices of `{i: SolvedObject}` in the order in which to go on; by default as they are
+    `results[i]` is that, or the `SolvedObject`; or the error that refused the mesh, one of `native.refusals`.
     """
 
     SOLVE_SHARE = 0.3  # part of the work where something follows
 
-    def __init__(self, tasks, progress=None, then=(), plan=list):
+    def __init__(self, tasks, progress=None, then=None):
         super().__init__(progress)
         self.results = [None] * len(tasks)
-        self._tasks, self._then, self._plan = tasks, then, plan
+        self._tasks, self._then = tasks, then
 
     def work(self):
-        count, share = len(self._tasks), self.SOLVE_SHARE if self._then else 1.0
-        found = self._each(range(count), 0.0, share, lambda index, ask: solved(self._tasks[index], ask))
-        if not self._then:
-            for index, result in found.items():
-                self.results[index] = result
-            return
-        followed = self._each(self._plan(found), share, 1.0, lambda index, ask: self._follow(index, found[index], ask))
-        for index, result in followed.items():
+        share = self.SOLVE_SHARE if self._then else 1.0
+        made = self._solved(share)
+        if self._then and made and not self._cancelled.is_set():
+            made = self._followed(made, share)
+        for index, result in made.items():
             self.results[index] = result
 
-    def _follow(self, index, found, ask):
-        result = self._then[index](found, progress=ask)
-        cache.trim()
-        return result
+    def _followed(self, solved, share):
+        try:
+            return self._then(solved, self.part(share, 1.0))
+        except native.refusals() as error:
+            return dict.fromkeys(solved, error)
+        finally:
+            cache.trim()
 
-    def _each(self, indices, begin, end, make):
-        """{index: what is made}, until the job is cancelled; refusals become results."""
-        refusals, indices, made = native.refusals(), list(indices), {}
-        for place, index in enumerate(indices):
+    def _solved(self, share):
+        """{i: SolvedObject}, until the job is cancelled; refusals become results."""
+        refusals, count, made = native.refusals(), len(self._tasks), {}
+        for index, task in enumerate(self._tasks):
             if self._cancelled.is_set():
                 break
-            step = (end - begin) / len(indices)
             try:
-                made[index] = make(index, self.part(begin + place * step, begin + (place + 1) * step))
+                made[index] = solved(task, self.part(share * index / count, share * (index + 1) / count))
             except refusals as error:
                 self.results[index] = error
         return made

@@ -2,6 +2,7 @@
 """From polygons to conformal structures, component by component. No bpy here: it runs in a worker thread."""
 
 import functools
+import itertools
 import time
 from dataclasses import dataclass, field, replace
 
@@ -56,7 +57,7 @@ class SolvedComponent:
         return self.surface.area
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SolvedObject:
     """The components of one object in the library's order, the mesh as given, and the surface in it."""
 
@@ -64,7 +65,9 @@ class SolvedObject:
     polygons: object
     components: tuple
     seconds: float
-    maps: dict = field(default_factory=dict, compare=False)  # `mapped.MappedPart`s by what was asked, newest last
+    # What `mapped` made of it by what was asked, newest last: the `mapped.MappedPart`s, and a size for them.
+    maps: dict = field(default_factory=dict)
+    number: int = field(default_factory=itertools.count().__next__)  # no other one has it
 
     @property
     def done(self):
@@ -76,16 +79,16 @@ class SolvedObject:
         """The largest number of forms among the components."""
         return max((c.form_count for c in self.components), default=0)
 
-    def keep_maps(self, asked, parts):
+    def keep_maps(self, asked, made):
         """Adds those of the `done` components, and drops the oldest beyond `KEPT_MAPS`."""
-        self.maps[asked] = parts
+        self.maps[asked] = made
         while len(self.maps) > KEPT_MAPS:
             del self.maps[next(iter(self.maps))]
 
     @property
     def size(self):
         """About how many doubles are held: harmonic forms and potentials; of tilers also solvers; and maps."""
-        has_tilings = any(part.tiling for parts in self.maps.values() for part in parts)
+        has_tilings = any(part.tiling for parts, _ in self.maps.values() for part in parts)
         per_form, per_edge = (6, 4 + DOUBLES_OF_TILER) if has_tilings else (4, 4)
         of_edges = sum((per_form * c.form_count + per_edge) * len(c.structure.edges) for c in self.done)
         corners = sum(len(c.surface.corner_vertices) for c in self.done)

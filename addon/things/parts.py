@@ -34,7 +34,7 @@ class PartsWork(jobs.Work):
         library, refusals = native.load(), []
         self.parts = components = self.polygons.surface(strict=False).components
         for done, part in enumerate(components):
-            ask = library.progress.scaled(
+            ask = library.core.progress.scaled(
                 self.ask, done / len(components) * FOUND, (done + 1) / len(components) * FOUND
             )
             if not ask(0.0, "tiles"):

@@ -211,7 +211,7 @@ def test_refused_parts_are_told_and_keep_their_map(monkeypatch):
     def refuse(*_arguments, **_options):
         raise library.TopologyError("too few tiles")
 
-    monkeypatch.setattr(library.results, "Tiler", refuse)
+    monkeypatch.setattr(library.forms.results, "Tiler", refuse)
     assert press(main="SEAMLESS") == {"FINISHED"}
     assert tilings(obj) == [None] and fills_the_square(uv(obj))
     outcome = written(obj, main="SEAMLESS")
@@ -226,7 +226,7 @@ def test_the_redo_panel_makes_nothing_again(monkeypatch):
     def forbidden(*_arguments, **_options):
         raise AssertionError("made again")
 
-    monkeypatch.setattr(module("native").load(), "automatic_maps", forbidden)
+    monkeypatch.setattr(module("native").load().maps.map_objects, "map_objects", forbidden)
     monkeypatch.setattr(module("solving.solve"), "solve", forbidden)
     assert press(seams=True, texture="SCALES") == {"FINISHED"}
 
@@ -235,10 +235,10 @@ def test_cancelling_in_a_tiling_leaves_no_result():
     obj = limb()
     targets, jobs = module("scene.targets"), module("solving.jobs")
     tasks = targets.tasks(targets.collect([obj])) * 2
-    job = jobs.Job(tasks, lambda fraction, _stage: job.cancel() if fraction > 0.2 else None, [then()] * 2)
+    job = jobs.Job(tasks, lambda fraction, _stage: job.cancel() if fraction > 0.2 else None, then(2))
     job.start()
     job.wait()
-    assert isinstance(job.results[0], module("native").load().Cancelled) and job.results[1] is None
+    assert all(isinstance(found, module("native").load().Cancelled) for found in job.results)
     assert not module("solving.cache").find(tasks[0]).maps
 
 
@@ -246,7 +246,7 @@ def test_progress_grows_over_solve_and_tiling():
     obj, seen = limb(), []
     targets = module("scene.targets")
     tasks = targets.tasks(targets.collect([obj]))
-    module("solving.jobs").Job(tasks, lambda fraction, _stage: seen.append(fraction), [then()]).run()
+    module("solving.jobs").Job(tasks, lambda fraction, _stage: seen.append(fraction), then()).run()
     assert seen == sorted(seen) and seen[0] >= 0 and 0.5 < seen[-1] <= 1
 
 

@@ -165,6 +165,17 @@ def unit_length(maps: Sequence[Map], arrangement: Arrangement = Arrangement()) -
     return 1 / wanted if wanted > 0 else 0.0
 
 
+def common_length(objects: Sequence[Sequence[Map]], arrangement: Arrangement = Arrangement()) -> float:
+    """`Arrangement.per_length` with which the maps of several objects have one size: that of tilings, or the largest
+    with which each object fits into the UV square; 0 where none has area."""
+    tiled = [m for maps in objects for m in maps if m.is_tiled]
+    if tiled:
+        unit = _unit_of_tilings(tiled)
+        return 1 / unit if unit > 0 else 0.0
+    found = min((square(maps, arrangement).filling for maps in objects), default=math.inf)
+    return found if math.isfinite(found) else 0.0
+
+
 def diagonal(surface: Surface) -> float:
     """The diagonal of the bounding box; for an intrinsic surface, that of a square with its area."""
     if surface.vertices is None:

@@ -8,10 +8,11 @@ from ..core.array_types import Progress
 from ..mesh.checks import check_type
 from ..mesh.surface import Surface
 from ..tiling.tiling import Poles
-from .automatic_maps import TOLERANCE, sized_maps
 from .automatic_structure import AnyStructure
 from .map import Map
 from .map_choice import EVENNESS
+from .map_objects import Wish, map_objects
+from .size import TOLERANCE, SizePolicy
 
 
 def automatic_map(
@@ -60,11 +61,10 @@ def automatic_map(
     or would lose more than 2 % of the area, as on a mesh of few faces.
     """
     check_type(surface, Surface)
-    options = {"lattice": lattice, "direction": direction, "boundary": boundary, "evenness": evenness}
-    options |= {"turn": turn, "max_turn": max_turn, "max_added": max_added}
-    structures = None if structure is None else [structure]
-    size = {"tiles": tiles, "density": density, "tolerance": density_tolerance}
-    (made,) = sized_maps([surface], structures, [main], [(poles, options)], **size, threads=threads, progress=progress)
+    options = {"lattice": lattice, "boundary": boundary, "turn": turn, "max_turn": max_turn, "max_added": max_added}
+    wish = Wish(surface, structure, main, poles, evenness, direction, options=options)
+    size = SizePolicy.of([surface], tiles, density, density_tolerance)
+    (((made,), _),) = map_objects([[wish]], size, threads, progress)
     if isinstance(made, Map):
         return made
     raise made

@@ -45,7 +45,7 @@ EVENNESS = 0.5  # what suits textures: squares hardly differ in size, and their 
 SOLVING = 0.5  # part of the work, for the structure
 
 
-def first_map(surface, structure, main, evenness, threads, progress):
+def first_map(surface, structure, main, evenness, threads, progress, coefficients=None):
     """The `Map` of flat islands, or the balanced one, where it stays; `Undecided` where a tiling may take its place."""
     if main not in MAIN_MAPS:
         raise ValueError(f"main is {quoted(main)}; one of {', '.join(MAIN_MAPS)} is needed")
@@ -54,7 +54,7 @@ def first_map(surface, structure, main, evenness, threads, progress):
     if main == "seamless":
         return Undecided(surface, structure, None, evenness=evenness)
     if main == "balanced":
-        return form_map(surface, structure, evenness=evenness)
+        return form_map(surface, structure, coefficients, evenness=evenness, progress=progress)
     flat = _flat_islands(surface, evenness, threads, scaled(progress, 1.0, 1.0))
     if flat and _is_taken_at_once(flat, surface):
         return _map_of(flat, surface, structure)

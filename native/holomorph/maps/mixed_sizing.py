@@ -19,7 +19,8 @@ from .map import Map, form_map
 from .map_choice import FLAT, GOOD, MOST_SOFT, REFUSALS, Refusal, Undecided, first_map
 from .mixed_map import mixed_map
 from .pieces import REST, Piece, cut_apart, names_of_pieces, smooth_pieces
-from .sizing import Sizing, Tried, Window, is_in, nearest, relative_size, window_around
+from .size import Window, is_in, nearest, relative_size, window_around
+from .sizing import Sizing, Tried
 from .tubes import closed, is_tube, opened
 
 MIXING = 0.5  # part of the work, for the pieces

@@ -4,23 +4,18 @@ import math
 import numbers
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 from ..core.array_types import Progress
 from ..core.progress import scaled
-from ..mesh.surface import Surface
 from ..tiling.tiling import Poles
 from .map import Map
 from .map_choice import REFUSALS, Refusal, Undecided
+from .size import TRIES, Window, is_in, nearest, relative_size, window_around
 from .tubes import is_tube
 
-LEAST_TILES, TILES_PER_HANDLE = 100, 64  # over the largest part, by default
-LIKE_SIZE = 1.095  # largest over smallest median density of tilings, for parts whose squares have one size
-TRIES = 4  # numbers of tiles, until the median density is the wanted one
 MOST_TURNED = 0.5  # radians from the direction that is asked for, where no whole tiles of one size are nearer to it
 TOO_FEW = "too few whole tiles fit on it for squares of the wanted size"
-
-Window: TypeAlias = tuple[float, float]  # least and largest median density, over the wanted one
 
 
 class Tried(NamedTuple):
@@ -123,45 +118,3 @@ class Sizing:
         is_chosen = not isinstance(self.poles, (str, numbers.Real)) or self.poles not in ("auto", 0)
         is_bound = any(self.options.get(name) is not None for name in ("max_added", "allowed"))
         return is_chosen or is_bound or bool(self.options.get("moves"))
-
-
-def usual_density(parts: Sequence[Surface]) -> float:
-    """Tiles per unit of area by default: 100, or 64 for each handle, over the largest part. 0 where none has area."""
-    largest = max(parts, key=lambda part: part.area, default=None)
-    if largest is None or not largest.area > 0:
-        return 0.0
-    return max(LEAST_TILES, TILES_PER_HANDLE * largest.genus) / largest.area
-
-
-def relative_size(made: Map, density: float) -> float:
-    """The median density over the wanted one."""
-    return made.density / density if density > 0 else 1.0
-
-
-def is_in(window: Window, size: float) -> bool:
-    """Whether a median density, over the wanted one, is in a window."""
-    return window[0] <= size <= window[1]
-
-
-def window_around(low: float = LIKE_SIZE**-0.5) -> Window:
-    """The window from `low` on; by default the one in whose middle the wanted density is."""
-    return low, low * LIKE_SIZE
-
-
-def best_window(sizes: Sequence[Sequence[float]], weights: Sequence[float]) -> Window:
-    """The window with the wanted density, 1, that holds one of the `sizes` of most parts by their weights; of equal
-    ones the one whose middle is nearest to it."""
-    tried = [window_around()]
-    tried += [window_around(size) for each in sizes for size in each if 1 / LIKE_SIZE <= size <= 1]
-    tried += [window_around(size / LIKE_SIZE) for each in sizes for size in each if 1 <= size <= LIKE_SIZE]
-
-    def held(window):
-        weight = sum(w for each, w in zip(sizes, weights) if any(is_in(window, size) for size in each))
-        return weight, -abs(math.log(window[0] * window[1]))
-
-    return max(tried, key=held)
-
-
-def nearest(tilings: Sequence[Map], density: float) -> Map:
-    """The map whose median density is nearest to the wanted one."""
-    return min(tilings, key=lambda made: abs(relative_size(made, density) - 1))

@@ -6,7 +6,7 @@ import pytest
 from holomorph import Quality, Surface, automatic_map, automatic_maps, automatic_structure
 from holomorph.maps.arrangement import arranged
 from holomorph.maps.map_choice import UNEVEN, Undecided
-from holomorph.maps.sizing import LIKE_SIZE, best_window, is_in, window_around
+from holomorph.maps.size import LIKE_SIZE, best_window, is_in, window_around
 from holomorph.maps.stretched import MOST_STRETCHED, stretched
 from holomorph.quality.distortion import drawn_densities
 from solved import surface_of

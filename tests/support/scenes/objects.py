@@ -1,7 +1,6 @@
 """Objects for the tests, and the operators that most tests call."""
 
 import importlib
-from functools import partial
 
 import bmesh
 import bpy
@@ -158,10 +157,10 @@ def run(main="BALANCED", **options):
     return bpy.ops.uv.holomorphic_maps(main=main, **options)
 
 
-def then(**options):
+def then(count=1, **options):
     """What follows the solves of a `jobs.Job`: maps with these `options.MapOptions`."""
     library = {name: importlib.import_module(f"holomorph_addon.maps.{name}") for name in ("mapped", "options")}
-    return partial(library["mapped"].mapped, options=library["options"].MapOptions(**options))
+    return library["mapped"].follow([library["options"].MapOptions(**options)] * count)
 
 
 def written(obj, **options):
@@ -169,7 +168,7 @@ def written(obj, **options):
     names = ("scene.targets", "solving.jobs", "results.write", "writing.transaction")
     targets, jobs, write, transaction = (importlib.import_module(f"holomorph_addon.{name}") for name in names)
     found = targets.collect([obj])
-    job = jobs.Job(targets.tasks(found), then=[then(**options)])
+    job = jobs.Job(targets.tasks(found), then=then(**options))
     job.run()
     with transaction.one_step(bpy.context, [obj]) as step:
         return write.write(step, found, job.results, write.WriteOptions())

@@ -1,0 +1,247 @@
+"""The maps of all parts of several objects, with squares of one size."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from ..core.array_types import Complexes, Progress, Reals
+from ..core.progress import scaled
+from ..core.side_by_side import side_by_side
+from ..mesh.copies import Copy, copies
+from ..mesh.surface import Surface
+from ..tiling.tiling import Poles
+from .automatic_structure import AnyStructure
+from .map import Map
+from .map_choice import EVENNESS, REFUSALS, SOLVING, Refusal, Undecided, first_map
+from .mixed_sizing import Divided, MixedSizing, divided
+from .size import TRIES, SizePolicy, best_window, relative_size, window_around
+from .sizing import Sizing
+
+LEADING = 0.25  # part of the area of the largest part, from which on a part may say the density of all
+TRYING = 0.9  # part of the work on tilings, for numbers of tiles
+SCALE_DIGITS = 3  # to which the logarithm of a copy's scale is rounded: parts that differ by less have the same tiles
+
+Made: TypeAlias = Map | Refusal | MemoryError
+
+
+@dataclass(frozen=True, eq=False)
+class Wish:
+    """What is asked for of one connected part, in the part's own vertices.
+
+    structure : None to make it, by `automatic_structure`
+    main : as in `automatic_map`
+    coefficients : of a "balanced" map, None for those of the balanced one
+    options : further ones of `Structure.tile`
+    """
+
+    surface: Surface
+    structure: AnyStructure | None = None
+    main: str = "automatic"
+    poles: Poles = "auto"
+    evenness: float = EVENNESS
+    direction: Any = "upright"
+    coefficients: Complexes | Reals | None = None
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def tiling(self) -> dict[str, Any]:
+        """All options of `Structure.tile` but poles."""
+        return {"direction": self.direction, "evenness": self.evenness, **self.options}
+
+    @property
+    def key(self) -> tuple[Any, ...]:
+        """Equal where the same is asked of two parts. A structure that is given may be of choices on that part."""
+        given = id(self.structure) if self.main == "balanced" and self.structure is not None else None
+        asked = self.main, self.poles, self.evenness, self.direction, self.coefficients, sorted(self.options.items())
+        return given, *_plain(asked)
+
+
+class MappedParts(NamedTuple):
+    """maps : of the parts of one object; size : with which that object alone gets the same maps"""
+
+    maps: list[Made]
+    size: SizePolicy
+
+
+class _Sized(NamedTuple):
+    """made : {part: its map, or how it is refused}; leader : the part whose density is that of the others, if any;
+    size : of the others"""
+
+    made: dict[int, Made]
+    leader: int | None
+    size: SizePolicy
+
+
+def map_objects(
+    objects: Sequence[Sequence[Wish]], size: SizePolicy, threads: int | None = None, progress: Progress | None = None
+) -> list[MappedParts]:
+    """The maps of the parts of each object, with squares of one size over all of them.
+
+    The median densities of tilings differ by a tenth at most from that of the largest part, which is made first. A part
+    on which whole tiles are too few for that, or have no room, gets another map, which `arrangement` scales. Small
+    parts are made side by side, and copies of one part once. What has no map, also for want of memory, gets the error.
+    """
+    wishes = [wish for parts in objects for wish in parts]
+    made, leader, others = _map_parts(wishes, size, threads, progress)
+    result, first = [], 0
+    for parts in objects:
+        last = first + len(parts)
+        leads = leader is not None and first <= leader < last
+        result.append(MappedParts(made[first:last], replace(size, window=others.window) if leads else others))
+        first = last
+    return result
+
+
+def _plain(value):
+    """Compares, where arrays do not."""
+    if isinstance(value, np.ndarray):
+        return value.shape, value.dtype.str, value.tobytes()
+    return tuple(map(_plain, value)) if isinstance(value, (tuple, list)) else value
+
+
+def _map_parts(wishes, size, threads, progress):
+    """([map or error of each part], `_Sized.leader`, `_Sized.size`)"""
+    alike = _alike(wishes)
+    done = SOLVING if any(wish.structure is None for wish in wishes) else 0.0
+    made = _first_maps(wishes, alike, threads, scaled(progress, 0.0, done))
+    kinds = {Undecided: Sizing, Divided: MixedSizing}
+    sizings = {
+        k: kinds[type(found)](found, wishes[k].poles, wishes[k].tiling)
+        for k, found in made.items()
+        if type(found) in kinds
+    }
+    sized, leader, others = _sized(wishes, alike, sizings, size, threads, scaled(progress, done, 1.0))
+    found = [sized[k] if k in sized else made[copy.first] for k, copy in enumerate(alike)]
+    maps = [
+        one if alike[k].first == k or not isinstance(one, Map) else _of_copy(one, wishes[k], alike[k].scale)
+        for k, one in enumerate(found)
+    ]
+    return maps, leader, others
+
+
+def _of_copy(found, wish, scale):
+    """The map of a copy of its part."""
+    return found.of_copy(wish.surface, wish.structure, scale)
+
+
+def _alike(wishes):
+    """The `Copy` that each part is. Parts of which something else is asked are not copies. Nor are those
+    that are turned about the vertical if u is to run along a vector."""
+    if any(not isinstance(wish.direction, (str, type(None))) for wish in wishes):
+        return [Copy(k) for k in range(len(wishes))]
+    keys = [wish.key for wish in wishes]
+    found = copies([wish.surface for wish in wishes])
+    return [copy if keys[k] == keys[copy.first] else Copy(k) for k, copy in enumerate(found)]
+
+
+def _or_error(work: Callable[..., Any]) -> Callable[..., Any]:
+    """The same function, but that what refuses one part is its result: others go on."""
+
+    def guarded(*arguments):
+        try:
+            return work(*arguments)
+        except (*REFUSALS, MemoryError) as error:
+            return error.with_traceback(None)  # which holds what took the memory
+
+    return guarded
+
+
+def _first_maps(wishes, alike, threads, progress):
+    """{part: result of `first_map`, or its error}, without copies."""
+    firsts = [k for k, copy in enumerate(alike) if copy.first == k]
+
+    @_or_error
+    def work(i, count, step):
+        wish = wishes[firsts[i]]
+        given = wish.surface, wish.structure, wish.main, wish.evenness
+        found = first_map(*given, count, step, wish.coefficients)
+        return divided(found, wish.evenness, count, step) if wish.main == "automatic" else found
+
+    found = side_by_side(work, [len(wishes[k].surface.triangles) for k in firsts], threads, progress)
+    return dict(zip(firsts, found))
+
+
+def _sized(wishes, alike, sizings, size, threads, progress):
+    """The `_Sized` of parts that may get tilings. The maps of copies are those of the first part."""
+    if not sizings:
+        return _Sized({}, None, size)
+    members = [k for k, copy in enumerate(alike) if copy.first in sizings]
+    names = {k: (alike[k].first, round(math.log(alike[k].scale), SCALE_DIGITS)) for k in members}
+    areas, leader = _areas(wishes, names), None
+    density, share, made = size.density, 0.0, {}
+    if size.tolerance != 0:
+        leader = _leader(wishes, alike, sizings, members)
+        share = wishes[leader].surface.area / (sum(areas.values()) or 1.0)
+        share *= 1.0 if size.tolerance is None else 0.5  # the rest is for another map of this part
+        wanted, about = _on_first(density, alike[leader]), _or_error(sizings[alike[leader].first].about)
+        found = about(wanted, size.tries, scaled(progress, 0.0, share))
+        is_near = isinstance(found, Map) and found.is_tiled and size.takes(relative_size(found, wanted))
+        if is_near:
+            density = found.density / alike[leader].scale ** 2
+        if is_near or size.tolerance is None:
+            made[names[leader]] = found
+    wanted = {names[k]: _on_first(density, alike[k]) for k in reversed(members) if names[k] not in made}
+    window = size.window or (None if made else window_around())
+    more, window = _of_one_size(wishes, sizings, wanted, areas, window, threads, scaled(progress, share, 1.0))
+    others = SizePolicy(density, tolerance=0.0, window=window)
+    made |= more
+    return _Sized({k: made[names[k]] for k in members}, leader, others)
+
+
+def _areas(wishes, names):
+    """{name: total area of the parts with that name}."""
+    areas = dict.fromkeys(names.values(), 0.0)
+    for k, name in names.items():
+        areas[name] += wishes[k].surface.area
+    return areas
+
+
+def _leader(wishes, alike, sizings, members):
+    """The part that says the density of all: the largest, or, where pieces of that may have any density, the largest
+    other one, if it is no smaller than `LEADING` of it."""
+    areas = {k: wishes[k].surface.area for k in members}
+    largest = max(members, key=areas.get)
+    whole = [k for k in members if isinstance(sizings[alike[k].first], Sizing)]
+    leader = max(whole, key=areas.get, default=largest)
+    return leader if areas[leader] >= LEADING * areas[largest] else largest
+
+
+def _of_one_size(wishes, sizings, wanted, areas, window, threads, progress):
+    """({(part, scale): its map or how it is refused}, the window) for densities by these. One of each part is tried
+    before the others: it places the poles for all."""
+    leading = list({name[0]: name for name in wanted}.values())
+    following = [name for name in wanted if name not in set(leading)]
+
+    def done(names, work, start, end):
+        sizes, guarded = [len(wishes[name[0]].surface.triangles) for name in names], _or_error(work)
+        made = side_by_side(
+            lambda i, _threads, step: guarded(names[i], step), sizes, threads, scaled(progress, start, end)
+        )
+        return dict(zip(names, made))
+
+    def tried(name, step):
+        return sizings[name[0]].tried(wanted[name], TRIES, step)
+
+    found = done(leading, tried, 0.0, TRYING / 2) | done(following, tried, TRYING / 2, TRYING)
+    refused = {name: each for name, each in found.items() if isinstance(each, Exception)}
+    sizes = {
+        name: [relative_size(made, wanted[name]) for made in each.tilings]
+        for name, each in found.items()
+        if name not in refused
+    }
+    window = window or best_window(list(sizes.values()), [areas[name] for name in sizes])
+
+    def settled(name, step):
+        return sizings[name[0]].settled(found[name], wanted[name], window, step)
+
+    return refused | done(list(sizes), settled, TRYING, 1.0), window
+
+
+def _on_first(density, copy):
+    """The density of a copy's map on the first part."""
+    return density * copy.scale**2
