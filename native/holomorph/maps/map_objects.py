@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -57,7 +58,7 @@ class Wish:
     def key(self) -> tuple[Any, ...]:
         """Equal where the same is asked of two parts. A structure that is given may be of choices on that part."""
         given = id(self.structure) if self.main == "balanced" and self.structure is not None else None
-        asked = self.main, self.poles, self.evenness, self.direction, self.coefficients, sorted(self.options.items())
+        asked = self.main, self.poles, self.evenness, self.direction, self.coefficients, self.options
         return given, *_plain(asked)
 
 
@@ -87,7 +88,7 @@ def map_objects(
     parts are made side by side, and copies of one part once. What has no map, also for want of memory, gets the error.
     """
     wishes = [wish for parts in objects for wish in parts]
-    made, leader, others = _map_parts(wishes, size, threads, progress)
+    made, leader, others = _map_parts(wishes, _alike(objects), size, threads, progress)
     result, first = [], 0
     for parts in objects:
         last = first + len(parts)
@@ -98,15 +99,15 @@ def map_objects(
 
 
 def _plain(value):
-    """Compares, where arrays do not."""
+    """Can be compared and hashed, where arrays cannot."""
     if isinstance(value, np.ndarray):
         return value.shape, value.dtype.str, value.tobytes()
+    value = sorted(value.items()) if isinstance(value, Mapping) else value
     return tuple(map(_plain, value)) if isinstance(value, (tuple, list)) else value
 
 
-def _map_parts(wishes, size, threads, progress):
+def _map_parts(wishes, alike, size, threads, progress):
     """([map or error of each part], `_Sized.leader`, `_Sized.size`)"""
-    alike = _alike(wishes)
     done = SOLVING if any(wish.structure is None for wish in wishes) else 0.0
     made = _first_maps(wishes, alike, threads, scaled(progress, 0.0, done))
     kinds = {Undecided: Sizing, Divided: MixedSizing}
@@ -129,14 +130,32 @@ def _of_copy(found, wish, scale):
     return found.of_copy(wish.surface, wish.structure, scale)
 
 
-def _alike(wishes):
-    """The `Copy` that each part is. Parts of which something else is asked are not copies. Nor are those
-    that are turned about the vertical if u is to run along a vector."""
-    if any(not isinstance(wish.direction, (str, type(None))) for wish in wishes):
-        return [Copy(k) for k in range(len(wishes))]
-    keys = [wish.key for wish in wishes]
-    found = copies([wish.surface for wish in wishes])
-    return [copy if keys[k] == keys[copy.first] else Copy(k) for k, copy in enumerate(found)]
+def _alike(objects):
+    """The `Copy` that each part is, of one of its own object, or of exactly the same in another: so an object alone has
+    the maps that it has beside others. Parts of which something else is asked are not copies. Nor are those that are
+    turned about the vertical if u is to run along a vector."""
+    result, same = [], {}
+    for wishes in objects:
+        surfaces, first = [wish.surface for wish in wishes], len(result)
+        is_level = all(isinstance(wish.direction, (str, type(None))) for wish in wishes)
+        found, keys = copies(surfaces) if is_level else map(Copy, range(len(wishes))), [wish.key for wish in wishes]
+        for k, copy in enumerate(found):
+            if copy.first != k and keys[copy.first] == keys[k]:
+                known = result[first + copy.first]
+                result.append(Copy(known.first, copy.scale * known.scale))
+            else:
+                result.append(Copy(same.setdefault((keys[k], _digest(surfaces[k])), len(result))))
+    return result
+
+
+def _digest(surface):
+    """Equal for surfaces that are the same to the last bit; none is the same as an intrinsic one."""
+    if surface.vertices is None:
+        return id(surface)
+    digest = hashlib.sha256()
+    for each in (surface.vertices, surface.corner_vertices, surface.face_offsets):
+        digest.update(np.ascontiguousarray(each))
+    return digest.digest()
 
 
 def _or_error(work: Callable[..., Any]) -> Callable[..., Any]:

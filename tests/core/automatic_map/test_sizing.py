@@ -6,7 +6,8 @@ import pytest
 from holomorph import Quality, Surface, automatic_map, automatic_maps, automatic_structure
 from holomorph.maps.arrangement import arranged
 from holomorph.maps.map_choice import UNEVEN, Undecided
-from holomorph.maps.size import LIKE_SIZE, best_window, is_in, window_around
+from holomorph.maps.map_objects import Wish, map_objects
+from holomorph.maps.size import LIKE_SIZE, SizePolicy, best_window, is_in, window_around
 from holomorph.maps.stretched import MOST_STRETCHED, stretched
 from holomorph.quality.distortion import drawn_densities
 from solved import surface_of
@@ -105,3 +106,26 @@ def test_what_jumps_both_ways_or_would_be_stretched_too_far_is_not():
         assert stretched(made, factor, "square") is None
     torus = automatic_map(surface_of(families.torus(16, 8)), main="seamless").tiling
     assert stretched(torus, 1.0, "square") is None
+
+
+@pytest.mark.parametrize("size", [{}, {"tiles": 300.0}, {"density": 6.0}], ids=["default", "tiles", "density"])
+def test_each_object_alone_gets_the_maps_that_it_has_beside_others(size):
+    objects = [[limb(0.5), limb(0.4)], [limb()], [limb(0.8), surface_of(families.geodesic_sphere(3))]]
+    wishes = [[Wish(part) for part in parts] for parts in objects]
+    together = map_objects(wishes, SizePolicy.of([part for parts in objects for part in parts], **size))
+    assert sum(made.is_tiled for found in together for made in found.maps) > 2
+    for own, found in zip(wishes, together):
+        ((alone, _),) = map_objects([own], found.size)
+        assert all(np.array_equal(one.uv, other.uv) for one, other in zip(alone, found.maps))
+
+
+def test_copies_with_poles_elsewhere_are_no_copies():
+    """Printed, masks of more than a thousand vertices leave values out."""
+    ball = surface_of(families.geodesic_sphere(11))
+    masks = np.zeros((2, len(ball.vertices)), bool)
+    middle = len(ball.vertices) // 2
+    masks[0, middle : middle + 40] = masks[1, middle + 100 : middle + 140] = True
+    assert repr(masks[0]) == repr(masks[1])
+    wishes = [Wish(ball, main="seamless", options={"allowed": mask}) for mask in masks]
+    ((maps, _),) = map_objects([wishes], SizePolicy.of([ball, ball]))
+    assert all(mask[made.poles].all() for mask, made in zip(masks, maps))
