@@ -12,8 +12,6 @@ from .known_periods import period_lattice
 from .siegel import siegel_reduction
 
 SMALLEST_TERM = 40.0  # terms below exp(-this) are left out of a theta series
-VANISHING = 1e-6  # a theta constant that is certainly below it vanishes, if all others are certainly above `OTHERS`:
-OTHERS = 1e-2  # where handles are far from each other, several are small, and the surface may be any
 ROUNDING = 1e-12  # relative: more than that of a term, its exponent below SMALLEST_TERM, and of a reduced period matrix
 
 
@@ -31,9 +29,8 @@ class Hyperelliptic:
 
 
 def hyperelliptic(structure: ConformalStructure) -> Hyperelliptic:
-    """A `Hyperelliptic` of a closed structure of genus 1 to 3: "no" where the bounds exclude that an even theta
-    constant vanishes. "yes" where the triangles have a half turn whose quotient is a sphere, or the bounds show that
-    one theta constant is below 1e-6, and all others are not small. So narrower bounds make no "yes" a "no".
+    """A `Hyperelliptic` of a closed structure of genus 1 to 3: "yes" where the triangles have a half turn whose
+    quotient is a sphere, "no" where the bounds exclude that an even theta constant vanishes. So both are proven.
 
     Raises TopologyError for other surfaces.
     """
@@ -46,17 +43,12 @@ def hyperelliptic(structure: ConformalStructure) -> Hyperelliptic:
     values, errors = map(np.array, zip(*even_theta_constants(omega, np.expm1(period_lattice(structure).radius()))))
     order = np.argsort(np.abs(values), kind="stable")
     sizes, errors = np.abs(values)[order], errors[order]
-    is_bounded = structure.period_bounds is not None
     verdict = "undecided"
-    if _native.has_hyperelliptic_turn(component._native, 3, None) or (is_bounded and _vanishes(sizes, errors)):
+    if _native.has_hyperelliptic_turn(component._native, 3, None):
         verdict = "yes"
-    elif is_bounded and (sizes > errors + VANISHING).all():
+    elif structure.period_bounds is not None and (sizes > errors).all():
         verdict = "no"
     return Hyperelliptic(verdict, float(sizes[0]), float(errors[0]))
-
-
-def _vanishes(sizes, errors):
-    return sizes[0] + errors[0] <= VANISHING and (sizes[1:] >= errors[1:] + OTHERS).all()
 
 
 def even_theta_constants(omega, change=0.0):
@@ -69,7 +61,7 @@ def even_theta_constants(omega, change=0.0):
         yield from ((1.0, np.inf) for _ in even_characteristics(omega.shape[-1]))
         return
     least = np.linalg.eigvalsh(omega.imag).min() * (1 - change)
-    most = int(np.ceil(np.sqrt(SMALLEST_TERM / (np.pi * least)))) + 1
+    most = int(np.ceil(np.sqrt(SMALLEST_TERM / (np.pi * least))))
     integers = np.stack(np.meshgrid(*[np.arange(-most, most + 1)] * omega.shape[-1], indexing="ij"), -1)
     for a, b in even_characteristics(omega.shape[-1]):
         n = integers.reshape(-1, omega.shape[-1]) + np.array(a) / 2

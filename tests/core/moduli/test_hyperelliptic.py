@@ -1,5 +1,7 @@
 """Hyperelliptic surfaces of genus 3 by theta constants and half turns: no wrong answer at any resolution."""
 
+from fractions import Fraction
+
 import families
 import flat_cones
 import numpy as np
@@ -7,7 +9,7 @@ import pytest
 import regular_maps
 from curves import NATURAL
 from holomorph import TopologyError, conformal_structure, curve_period_matrix, hyperelliptic, siegel_reduction
-from holomorph.moduli.theta_constants import VANISHING, even_theta_constants
+from holomorph.moduli.theta_constants import even_theta_constants
 from solved import surface_of
 
 
@@ -82,10 +84,29 @@ def test_the_exact_theta_constant_is_within_the_error():
 
 @pytest.mark.parametrize("name", [name for name, points in NATURAL.items() if len(points) > 6])
 def test_theta_constants_of_curves(name):
-    """One of the 36 vanishes, to less than what counts as that."""
+    """One of the 36 vanishes, to the error that follows from that of the periods, and no other."""
     omega = siegel_reduction(curve_period_matrix(np.poly(NATURAL[name]))).period_matrix
-    sizes = np.sort([abs(value) for value, _ in even_theta_constants(omega)])
-    assert sizes[0] < VANISHING / 1000 and sizes[1] > 1000 * VANISHING
+    found = sorted((abs(value), error) for value, error in even_theta_constants(omega, np.expm1(omega.error)))
+    assert found[0][0] <= found[0][1] < 1e-3
+    assert all(size > error for size, error in found[1:])
+
+
+def test_rounding_of_theta_constants():
+    """Jacobi: theta_3^4 = theta_2^4 + theta_4^4, in fractions, to the errors."""
+    for height in np.random.default_rng(0).uniform(0.9, 3, 300):
+        constants = [(Fraction(value.real), error) for value, error in even_theta_constants(np.array([[1j * height]]))]
+        (three, _), (four, _), (two, _) = constants
+        assert abs(three**4 - two**4 - four**4) <= sum(4 * abs(value) ** 3 * error for value, error in constants)
+
+
+@pytest.mark.parametrize("change", [1e-5, 1e-3, 1e-1])
+def test_errors_of_bounds(change):
+    """theta_3(i y) is the sum of exp(-pi n^2 y): the lowest y within the bounds is the farthest."""
+    n = np.arange(-9, 10)
+    for height in (0.9, 1.5, 2.5):
+        value, error = next(even_theta_constants(np.array([[1j * height]]), change))
+        farthest = np.exp(-np.pi * n**2 * height * (1 - change)).sum()
+        assert 0.6 * error < farthest - value.real <= error
 
 
 def test_genus_two_is_always_hyperelliptic():
