@@ -67,8 +67,8 @@ def _solved(periods, errors, roots, radii):
     inverse = np.linalg.inv(a)
     omega = np.linalg.solve(a, b)
     error = np.abs(inverse) @ (errors[:, g:] + errors[:, :g] @ np.abs(omega))
-    error += _rounding(a, inverse, omega) + _from_roots(roots, radii, inverse) + np.abs(omega - omega.T) / 2
-    return (omega + omega.T) / 2, error
+    error += _rounding(a, inverse, omega) + _from_roots(roots, radii, inverse)
+    return (omega + omega.T) / 2, (error + error.T) / 2
 
 
 def _branch_points(coefficients):

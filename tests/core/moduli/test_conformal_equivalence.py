@@ -18,6 +18,7 @@ from holomorph import (
     curve_period_matrix,
 )
 from holomorph.__main__ import main
+from holomorph.forms.period_matrix import PeriodMatrix
 from holomorph.moduli.equivalence import AGREEMENT, VERDICTS
 from known_matrices import BOLZA, BOLZA_AGAIN, LAWSON, SQUARES
 from mesh_files import obj
@@ -368,6 +369,16 @@ def test_wrong_matrices_are_refused(matrix, reason):
 def test_what_is_no_matrix_is_refused(given):
     with pytest.raises(TypeError, match="surfaces, structures or period matrices are compared, not"):
         conformally_equivalent([[1j]], given)
+
+
+@pytest.mark.parametrize("distance", [2e-9, 5e-9, 1e-7])
+def test_tori_that_are_not_the_same_are_not_proven_to_be(distance):
+    """Within a quarter of errors as large as that of many a curve, but elsewhere in the half-plane."""
+    tori = [PeriodMatrix.of([[1j * height]], 5 * distance) for height in (1.3, 1.3 * np.exp(distance))]
+    made = equivalent(*tori)
+    assert made.verdict == "indistinguishable" and not made.is_proven
+    assert made.residual == pytest.approx(distance, rel=1e-3)
+    assert made.tolerance == pytest.approx(11 * distance, rel=1e-3)
 
 
 # ---- the command -----------------------------------------------------------------------------------------------

@@ -2,6 +2,8 @@
 
 import pickle
 import re
+from decimal import Decimal, localcontext
+from fractions import Fraction
 
 import curves
 import numpy as np
@@ -9,9 +11,13 @@ import pytest
 import sextics
 from equivalence import distance
 from holomorph import SolverError, conformally_equivalent, curve_period_matrix
+from holomorph.forms.period_matrix import distance_within
+from holomorph.moduli import curve_periods
 from holomorph.moduli.igusa import invariants
 from holomorph.moduli.siegel import siegel_reduction
 from known_matrices import BOLZA, LAWSON
+
+EPS = np.finfo(float).eps
 
 
 def random_coefficients(degree, seed):
@@ -41,6 +47,68 @@ def test_elliptic_curves_by_the_arithmetic_geometric_mean(root):
     ours = siegel_reduction(curve_period_matrix(np.poly([0, 1, root]))).period_matrix
     expected = siegel_reduction([[tau]]).period_matrix
     assert abs(ours - expected).max() < 1e-11
+
+
+def exact_height(roots):
+    """Im tau >= 1 of y^2 = (x - p) (x - q) (x - r), to 40 digits of decimal arithmetic; Re tau = 0."""
+    p, q, r = map(Decimal, sorted(roots))
+
+    def mean(a, b):
+        while abs(a - b) > Decimal("1e-40") * a:
+            a, b = (a + b) / 2, (a * b).sqrt()
+        return a
+
+    with localcontext(prec=50):
+        quotient = mean(Decimal(1), ((q - p) / (r - p)).sqrt()) / mean(Decimal(1), ((r - q) / (r - p)).sqrt())
+        return max(quotient, 1 / quotient)
+
+
+def part_of_error(coefficients, roots):
+    """Distance of the exact period, as a part of the error that is claimed."""
+    omega = curve_period_matrix(coefficients)
+    tau, exact = siegel_reduction(omega).period_matrix.item(), exact_height(roots)
+    with localcontext(prec=50):
+        return np.hypot(float(Decimal(tau.imag) / exact - 1), tau.real / float(exact)) / omega.error
+
+
+def parts_of_errors(sizes):
+    """Those of curves with integers for roots."""
+    random, parts = np.random.default_rng(0), []
+    for size in np.repeat(sizes, 60):
+        p, q, r = map(int, random.choice(size, 3, replace=False) - size // 2)
+        parts.append(part_of_error([1, -(p + q + r), p * q + q * r + r * p, -p * q * r], [p, q, r]))
+    return parts
+
+
+def test_no_period_is_farther_than_its_error():
+    """What is wrong is rounding, and some of it a hundredth of what is claimed."""
+    assert 0.01 < max(parts_of_errors(10 ** np.arange(1, 6))) <= 1
+
+
+@pytest.mark.parametrize("truncation", [1e-2, 1e-4, 1e-6])
+def test_no_period_is_farther_than_the_truncation_of_its_integrals(monkeypatch, truncation):
+    """With so few nodes that rounding is nothing to it."""
+    monkeypatch.setattr(curve_periods, "TRUNCATION", truncation)
+    assert 0.001 < max(parts_of_errors(10 ** np.arange(1, 4))) <= 1
+
+
+def exact_polynomial(roots):
+    """Coefficients of the product of x - root, in fractions."""
+    c = [Fraction(1)]
+    for root in map(Fraction, roots):
+        c = [a - root * b for a, b in zip([*c, 0], [0, *c], strict=True)]
+    return c
+
+
+def test_coefficients_as_wrong_as_a_product_of_factors():
+    """Each by 2 units for each factor, all in the direction that moves a positive root most."""
+    random, parts = np.random.default_rng(1), []
+    for _ in range(200):
+        roots = np.sort(random.uniform(-1, 1, 3)) + random.uniform(2, 50)
+        if np.diff(roots).min() > 0.05:
+            wrong = [1, *(c + 6 * Fraction(EPS) * abs(c) for c in exact_polynomial(roots)[1:])]
+            parts.append(part_of_error([float(c) for c in wrong], roots))
+    assert 0.1 < max(parts) <= 1
 
 
 @pytest.mark.parametrize(
@@ -122,7 +190,7 @@ def test_curves_that_differ_by_little_are_told_apart():
 def test_errors_of_coefficients_are_within_the_error(kind):
     """Each moved by its last bit, they belong to curves that are not told apart."""
     c = np.poly(points_of(kind, 3))
-    moved = c * (1 + np.finfo(float).eps * np.random.default_rng(2).choice([-1, 1], len(c)))
+    moved = c * (1 + EPS * np.random.default_rng(2).choice([-1, 1], len(c)))
     first, second = curve_period_matrix(c), curve_period_matrix(moved)
     assert conformally_equivalent(first, second).residual <= first.error + second.error
 
@@ -140,6 +208,26 @@ def test_a_matrix_is_as_exact_as_it_is_symmetric():
     skew = np.array(exact)
     skew[0, 1] += 1e-9
     assert 1e-10 < conformally_equivalent(exact, skew).tolerance < 1e-8
+
+
+@pytest.mark.parametrize("apart", [1e-12, 1e-10, 1e-9])
+def test_either_side_of_a_matrix_may_be_the_exact_one(apart):
+    """[[i, x], [x, i]] is i + x on the diagonal: 2 asinh(x / 4) from the middle, once for each of both matrices."""
+    skew = np.array([[1j, apart], [0, 1j]])
+    tolerance = conformally_equivalent(skew, skew).tolerance
+    assert 4 * np.arcsinh(apart / 4) <= tolerance < 2 * apart
+
+
+@pytest.mark.parametrize("change", [1e-6, 0.1, 0.5, 0.9])
+@pytest.mark.parametrize("tau", [1j, 0.3 + 1.7j, -0.4 + 0.9j])
+def test_the_farthest_torus(tau, change):
+    """Im tau less a part of itself: further up the half-plane, or to a side, is not so far."""
+    found = distance_within(np.array([[tau]]), np.array([[change * tau.imag]]))
+    assert found == pytest.approx(-np.log(1 - change), rel=1e-9)
+
+
+def test_no_bound_where_a_torus_may_be_none():
+    assert distance_within(np.array([[1j]]), np.array([[1.0]])) == np.inf
 
 
 def test_integer_coefficients_are_exact():

@@ -49,6 +49,14 @@ def test_one_moved_vertex_is_seen(name):
         assert similarity(mesh, families.replace(mesh, vertices=vertices)) is None
 
 
+def test_stretched_meshes_are_as_far_as_they_are_stretched():
+    """A flat annulus, x by a factor: the same linear map of each triangle, and the same log of its dilatation."""
+    mesh = families.triangles_of(families.square_minus_square(2, jitter=0.2))
+    for stretch, is_similar in ((1e-9, True), (5e-9, True), (1.5e-8, False), (1e-7, False)):
+        found = similarity(mesh, families.replace(mesh, vertices=mesh.vertices * [1 + stretch, 1, 1]))
+        assert found == pytest.approx(stretch, abs=1e-13) if is_similar else found is None
+
+
 def test_a_mesh_with_a_triangle_without_area_is_similar_to_itself():
     mesh = MESHES["torus"]
     a, b, c = mesh.corners[:3]  # the middle of a side becomes a vertex, of the first triangle alone
