@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/errors.h"
+#include "solver/direct/direct_solver.h"
 #include "solver/solver_choice.h"
 
 namespace holomorph::structure {
@@ -17,8 +18,8 @@ constexpr double kPerEdge = 150;
 constexpr double kMultigrid = 350;
 // One right-hand side, its solution, and the solution as a row-major function: per vertex.
 constexpr double kPerColumn = 24;
-// The direct solver's own copies of a block of right-hand sides: six of at least 4 vectors or half a million numbers.
-constexpr double kDirectCopies = 6 * 8, kDirectVectors = 4, kDirectEntries = 500'000;
+// The direct solver's own copies of a block of right-hand sides: per number.
+constexpr double kDirectCopies = 6 * 8;
 // Dense matrices of #forms x #forms that are there at once: of integers, the Gram matrix and its bounds, its
 // projection.
 constexpr double kDenseMatrices = 40;
@@ -29,9 +30,9 @@ constexpr int kLanes = 8;
 
 double solver_bytes(solver::Method method, const Extent& extent) {
   const auto n = static_cast<double>(extent.vertices);
-  return method == solver::Method::direct
-             ? solver::factor_bytes(n) + kDirectCopies * std::max(kDirectVectors * n, kDirectEntries)
-             : kMultigrid * n;
+  if (method == solver::Method::multigrid) return kMultigrid * n;
+  const auto block = std::min<Eigen::Index>(solver::direct_block(extent.vertices), extent.forms);
+  return solver::factor_bytes(n) + kDirectCopies * n * static_cast<double>(block);
 }
 
 // Everything but the forms.

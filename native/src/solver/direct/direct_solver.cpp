@@ -51,7 +51,7 @@ class DirectSolver final : public LaplaceSolver {
 
   Solution solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Execution& execution) override {
     Solution X(B.rows(), B.cols());
-    const auto block = std::max<Eigen::Index>(kLeastBlock, kBlockEntries / B.rows());
+    const Eigen::Index block = direct_block(B.rows());
     for (Eigen::Index first = 0, width = 1; first < B.cols(); first += width) {
       condition_ = conditions[first];
       assert(condition_ == Condition::natural || !fixed_.empty());
@@ -153,6 +153,10 @@ class DirectSolver final : public LaplaceSolver {
 };
 
 }  // namespace
+
+Eigen::Index direct_block(Eigen::Index unknowns) {
+  return std::max(kLeastBlock, kBlockEntries / std::max<Eigen::Index>(unknowns, 1));
+}
 
 std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, std::vector<int> fixed, Execution& execution) {
   return std::make_unique<DirectSolver>(std::move(L), std::move(fixed), execution);

@@ -5,6 +5,9 @@
 
 namespace holomorph::solver {
 
+/// The right-hand sides that share a back-substitution, at most.
+Eigen::Index direct_block(Eigen::Index unknowns);
+
 /// Sparse Cholesky with one vertex pinned (direct/sparse_cholesky.h), and iterative refinement. The fixed vertices are
 /// eliminated last, so that one factorisation serves both conditions.
 /// @param fixed vertices, ascending and distinct; none for a closed surface, where dirichlet must not be asked for
