@@ -46,7 +46,7 @@ MUTATIONS = (
         ("lengths-given", "kOfGivenLength = 2.5 * kUnit", "kOfGivenLength = 0.25 * kUnit", LENGTHS),
         ("weights", "kOfLargest = 3 * kUnit", "kOfLargest = 0.3 * kUnit", LENGTHS),
         ("weights-unit", "epsilon() / 2;  // the unit", "epsilon() / 20;  // the unit", WEIGHTS),
-        ("weights-of-needles", "kOfSharpSquares = 7 *", "kOfSharpSquares = 0.7 *", WEIGHTS),
+        ("weights-of-needles", "kOfSharpSquares = 3 *", "kOfSharpSquares = 0.3 *", WEIGHTS),
         ("weights-left-blunt", "return {sharp,", "return {{given},", WEIGHTS),
     )
     | of(
@@ -61,7 +61,7 @@ MUTATIONS = (
         ("gram-sums", "kUnit * (gram.summands + 6)", "kUnit * 0.1 * (gram.summands + 6)", SUMS),
         ("gram-values", "3 * of_values", "0.3 * of_values", SUMS),
         ("gram-zero-weights", "k == 0 && (w.errors.empty() || w.errors[e] == 0)", "k == 0", "native:*GramMatrices*"),
-        ("gram-errors-halved", "kSlack * gram.uncertain", "0.5 * gram.uncertain", SUMS),
+        ("gram-errors-halved", "errors = gram.uncertain", "errors = 0.5 * gram.uncertain", SUMS),
     )
     | of(
         ROOM + "forms/certificates.cpp",

@@ -13,13 +13,16 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
-constexpr double kSlack = 1.01;  // covers the rounding of the bounds of rounding themselves
+
+// Covers the rounding of a bound of rounding itself: two products of n x n matrices whose terms are all positive, and
+// some factors.
+double slack(Index n) { return 1 + kUnit * static_cast<double>(2 * n + 16); }
 
 // Returns a diagonal matrix that is not below any symmetric matrix whose entries are at most those of `errors`: 2 |x_i
 // x_j| <= (w_j / w_i) x_i^2 + (w_i / w_j) x_j^2, with weights that suit the diagonal of P.
 VectorXd diagonal_above(const MatrixXd& errors, const MatrixXd& P) {
   const VectorXd root = P.diagonal().cwiseAbs().cwiseSqrt().cwiseMax(std::numeric_limits<double>::min());
-  return kSlack * root.cwiseProduct(errors * root.cwiseInverse());
+  return slack(P.rows()) * root.cwiseProduct(errors * root.cwiseInverse());
 }
 
 }  // namespace
@@ -27,7 +30,7 @@ VectorXd diagonal_above(const MatrixXd& errors, const MatrixXd& P) {
 MatrixXd above_congruent(const MatrixXd& T, const MatrixXd& G) {
   MatrixXd P = symmetric(T * G * T.transpose());
   const double factor = kUnit * static_cast<double>(2 * G.rows() + 2);  // both products, the mean, the last sum
-  const MatrixXd errors = kSlack * factor * (T.cwiseAbs() * G.cwiseAbs() * T.cwiseAbs().transpose());
+  const MatrixXd errors = slack(G.rows()) * factor * (T.cwiseAbs() * G.cwiseAbs() * T.cwiseAbs().transpose());
   P.diagonal() += diagonal_above(symmetric(errors), P);
   return P;
 }
@@ -63,14 +66,15 @@ void set_real_bounds(const MatrixXd& G, const MatrixXd& Z, PeriodBounds& bounds)
   // The part of the midpoint M: |rest Y|_ij <= sum_k |rest_ik| sqrt(Y_kk Y_jj), since Y is positive definite.
   const MatrixXd rest = T * M.rightCols(g);
   const double factor = kUnit * static_cast<double>(2 * g + 2);
-  const MatrixXd missed = rest.cwiseAbs() + kSlack * factor * (T.cwiseAbs() * M.rightCols(g).cwiseAbs());
+  const MatrixXd missed = rest.cwiseAbs() + slack(2 * g) * factor * (T.cwiseAbs() * M.rightCols(g).cwiseAbs());
   const VectorXd root = bounds.upper.diagonal().cwiseSqrt();
   bounds.real_lower.resize(g, g);
   bounds.real_upper.resize(g, g);
   for (Index i = 0; i < g; ++i) {
     for (Index j = 0; j < g; ++j) {
-      const double radius = kSlack * (std::sqrt(across[i] * trace) * root[j] + missed.row(i).dot(root) * root[j]) +
-                            2 * kUnit * std::abs(Z(i, j));
+      const double radius =
+          slack(2 * g) * (std::sqrt(across[i] * trace) * root[j] + missed.row(i).dot(root) * root[j]) +
+          2 * kUnit * std::abs(Z(i, j));
       bounds.real_lower(i, j) = -Z(i, j) - radius;
       bounds.real_upper(i, j) = -Z(i, j) + radius;
     }

@@ -18,8 +18,6 @@ using mesh::HalfEdges;
 
 // Unit roundoff of a double.
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
-// Covers the rounding of the bounds of rounding themselves.
-constexpr double kSlack = 1.01;
 // Edges that are summed before their sum is added to that of a block: short sums round less.
 constexpr int kPart = 64;
 
@@ -149,8 +147,8 @@ MatrixXd gram_errors(const GramMatrix& gram) {
     relative = std::max(relative, gram.size[i] > 0 ? gram.cut_size[i] / gram.size[i] : 0.0);
   const double of_values = kUnit * std::sqrt(8 + 2 * relative);
   const double of_sums = kUnit * (gram.summands + 6);  // and the products, the last mean and sum
-  MatrixXd errors = kSlack * gram.uncertain;
-  errors.diagonal() += kSlack * n * (of_sums + 3 * of_values) * gram.size;
+  MatrixXd errors = gram.uncertain;
+  errors.diagonal() += n * (1 + 2 * of_sums) * (of_sums + 3 * of_values) * gram.size;  // a sum as well, and rounded
   return errors;
 }
 

@@ -25,7 +25,6 @@ constexpr unsigned kMostFlipsOfAnEdge = 60;
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 constexpr double kOfBase = 0.5 * kUnit, kOfSides = 1.5 * kUnit, kOfAbscissa = 2 * kUnit, kOfHeight = 6.5 * kUnit;
 constexpr double kOfSum = kUnit, kOfLength = 2 * kUnit;
-constexpr double kSlack = 1.01;  // covers the rounding of the bounds of rounding themselves
 // Many regions share out the work, large ones (in edges, a power of 2) leave little between them.
 constexpr unsigned kRegions = 16, kLeastRegion = 8192;
 // Prefetch distance, in queue entries.
@@ -121,7 +120,7 @@ class Flipper {
     // A length is a convex function of the legs, and its square one of degree 2.
     const double first = std::abs(across) * of_across + up * of_up, second = of_across * of_across + of_up * of_up;
     const double rounding = length > 0 ? (first + second / 2) / length + kOfLength * length : of_across + of_up;
-    return {length, kSlack * rounding};
+    return {length, rounding};  // energy_growth covers the rounding of this
   }
 
   void flip(int e) {

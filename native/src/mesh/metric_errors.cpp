@@ -19,13 +19,13 @@ constexpr double kOfDistance = 3.5 * kUnit, kOfGivenLength = 2.5 * kUnit;
 // a^2, 1 of c^2, whose sizes add up to the numerator of a or of b; 1 of the sum, 5.5 of the area (Kahan's order), 1 of
 // the quotient.
 constexpr double kOfLargest = 3 * kUnit, kOfCotangent = 7.5 * kUnit;
-// The same in twice the precision (Joldes et al. 2017, doi:10.1145/3121432), in parts of |b^2 - a^2| / 4 A, 7 of the
-// product, and of the cotangent: 3 of the sum, 21 of the area, 15 of the quotient.
-constexpr double kOfSharpSquares = 7 * kUnit * kUnit, kOfSharpCotangent = 39 * kUnit * kUnit;
+// The same in twice the precision (Joldes et al. 2017, doi:10.1145/3121432), in parts of |b^2 - a^2| / 4 A, 3 of the
+// difference, and of the cotangent: 3 of the sum, 21 of the area, 15 of the quotient.
+constexpr double kOfSharpSquares = 3 * kUnit * kUnit, kOfSharpCotangent = 39 * kUnit * kUnit;
 // Error of the errors of cotangents themselves: 1 of a product, 5 of the sum with the others of an edge, half of each.
 constexpr double kOfErrors = 3 * kUnit;
-// Covers the rounding of the bounds of rounding themselves, whose terms are all positive.
-constexpr double kSlack = 1.01;
+// Covers the rounding of these bounds themselves, sums of few terms that are all positive, and products of units.
+constexpr double kSlack = 1 + 32 * kUnit;
 
 std::array<HalfedgeHandle, 3> around(const Metric& t, HalfedgeHandle h) {
   const HalfedgeHandle h1 = next(t.half_edges, h);
@@ -63,7 +63,7 @@ Cotangent cotangent_at(const Metric& t, HalfedgeHandle h) {
   const DoubleDouble others = exact_sum(b, c), apart = exact_sum(b, -c), whole{a};
   const DoubleDouble area = (whole + others) * (others - whole) * (whole - apart) * (whole + apart);  // 16 A^2
   if (!(area.high > 0)) return rounded;
-  const DoubleDouble squares = exact_sum(b, -a) * exact_sum(b, a), root = sqrt(area);
+  const DoubleDouble squares = exact_product(b, b) - exact_product(a, a), root = sqrt(area);
   const DoubleDouble sharp = (squares + exact_product(c, c)) / root;
   return {sharp,
           kSlack * (kOfSharpSquares * std::abs(squares.high) / root.high + kOfSharpCotangent * std::abs(sharp.high))};
@@ -85,7 +85,8 @@ double error_of_side(const Metric& t, HalfedgeHandle h) {
 
 // A length l_i that is off by delta_i changes the metric by (2 l_i + delta_i) delta_i |grad lambda_j| |grad lambda_k|;
 // these gradients are l_j / 2A and l_k / 2A long. Where that is eta, energies, sqrt(det g) g^-1, change by no more than
-// sqrt((1 + eta) / (1 - eta)) <= 1 + eta + eta^2.
+// 1 / sqrt(1 - eta), for the eigenvalues of the change differ by eta at most: so what is returned, eta + eta^2, is
+// nearly twice as large as needed, and covers its own rounding and that of the delta_i.
 double energy_growth(const std::array<RoundedLength, 3>& sides, double* open) {
   const auto& [a, b, c] = sides;
   const auto part = [](const RoundedLength& x, double y, double z) {
@@ -95,7 +96,7 @@ double energy_growth(const std::array<RoundedLength, 3>& sides, double* open) {
   const double area = triangle_area(a.length, b.length, c.length), eta = bound / (area * area);
   const bool is_open = !(eta < 0.5);
   if (open) *open = is_open ? std::sqrt(std::max(bound, area * area)) : area;
-  return is_open ? 1 : kSlack * eta * (1 + eta);
+  return is_open ? 1 : eta * (1 + eta);
 }
 
 Array<FaceError> metric_errors(const Metric& t, const Surface& surface, Workers& workers) {

@@ -95,5 +95,86 @@ TEST(MetricErrors, WeightsOfNeedles) {
   }
 }
 
+// ---- thin triangles whose cotangents cancel each other --------------------------------------------------------------
+
+// Triangles by their cotangents opposite the first side, which Kahan's order leaves all digits but the last.
+using Sided = std::pair<long double, Lengths>;
+
+long double near_cotangent(long double a, long double b, long double c) {
+  std::array<long double, 3> x{a, b, c};
+  std::sort(x.begin(), x.end());
+  const auto [least, middle, most] = x;
+  const long double area =
+      (most + (middle + least)) * (least - (most - middle)) * (least + (most - middle)) * (most + (middle - least));
+  return ((b - a) * (b + a) + c * c) / std::sqrt(area);
+}
+
+// Triangles whose last two lengths are others than these by some rounding.
+std::vector<Sided> triangles_near(const Lengths& lengths) {
+  constexpr int kUnits = 32;
+  std::vector<Sided> found;
+  for (int i = -kUnits; i < kUnits; ++i) {
+    for (int j = -kUnits; j < kUnits; ++j) {
+      const double b = lengths[1] * (1 + i * 0x1p-52), c = lengths[2] * (1 + j * 0x1p-52);
+      found.push_back({near_cotangent(lengths[0], b, c), {lengths[0], b, c}});
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// Pairs of thin triangles with a common first side, whose cotangents opposite of it cancel to a unit of rounding. One
+// is obtuse there, with its height above `part` of the side; the other one is isosceles, and has what is left of 180
+// degrees there.
+std::vector<std::array<Lengths, 2>> cancelling(double side, double angle, double part) {
+  const double height = angle * part * (1 - part);
+  const auto obtuse = triangles_near({side, side * std::hypot(part, height), side * std::hypot(1 - part, height)});
+  const auto others =
+      triangles_near({side, side, 2 * side * std::cos(std::atan2(height, part) + std::atan2(height, 1 - part))});
+  std::vector<std::array<Lengths, 2>> found;
+  for (const auto& [cotangent, lengths] : obtuse) {
+    const auto other = std::lower_bound(others.begin(), others.end(), Sided(-cotangent, {}));
+    if (other != others.end() && cotangent + other->first < 0x1p-54L * other->first)
+      found.push_back({lengths, other->second});
+  }
+  return found;
+}
+
+// The error of the weight of the common side over its bound, where energies of both triangles grow by `growth`.
+double part_of_quad(const std::array<Lengths, 2>& sides, double growth) {
+  Execution execution(1);
+  const auto& [lower, upper] = sides;
+  const auto surface =
+      make_intrinsic_surface(4, {{0, 1, 2}, {3, 2, 1}}, {lower, upper}, {{0, 1, 2}, {0, 3, 4}}, execution);
+  auto triangulation = given_triangulation(surface, half_edges(surface, execution), execution.workers());
+  for (FaceError& error : triangulation.metric_errors) error = {growth, growth};
+  const auto weights = cotangent_weights(triangulation, execution);
+  const auto errors = energy_errors(triangulation.metric(), weights, execution.workers());
+  const mpf_class exact =
+      (exact_cotangent(lower[0], lower[1], lower[2]) + exact_cotangent(upper[0], upper[1], upper[2])) / 2;
+  const mpf_class missed = exact - weights[0];
+  return mpf_class((missed + growth * exact) / errors[0]).get_d();
+}
+
+double largest_of_quads(int count, double growth) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(0.1, 0.9);
+  double largest = 0;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 0.02 * (1 - 0.4 * uniform(random));
+    for (const auto& sides : cancelling(1 + uniform(random), angle, uniform(random)))
+      largest = std::max(largest, part_of_quad(sides, growth));
+  }
+  return largest;
+}
+
+TEST(MetricErrors, WeightsInWhichThinTrianglesCancel) {
+  const double part = largest_of_quads(800, 0);
+  EXPECT_LE(part, 1);
+  EXPECT_GE(part, kNear / 3);  // a bound for each of 39 operations
+}
+
+TEST(MetricErrors, GrowthInWhichThinTrianglesCancel) { EXPECT_LE(largest_of_quads(100, 1e-3), 1); }
+
 }  // namespace
 }  // namespace holomorph::mesh
