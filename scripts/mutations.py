@@ -20,6 +20,12 @@ VERDICT = CORE + "uv/test_verdict.py"
 PAPER = CORE + "multiresolution/test_paper_solver.py"
 MEMORY = CORE + "structure/test_memory_limit.py::test_the_estimate_and_the_peak"
 EQUIVALENCE = CORE + "moduli/test_equivalence_rounding.py"
+SURFACES = CORE + "moduli/test_conformal_equivalence.py"
+CURVES = CORE + "moduli/test_curve_periods.py"
+THETA = CORE + "moduli/test_hyperelliptic.py"
+SIMILAR = CORE + "moduli/test_similarities.py"
+REFINED = CORE + "conformal/test_refined_triangles.py"
+NARROW = CORE + "conformal/test_narrow_bounds.py"
 DENSE = "native:*CertainBounds*"
 DIGITS = "native:DoubleDouble*"
 SLIVERS = CORE + "mesh/test_slivers.py"
@@ -47,11 +53,15 @@ MUTATIONS = (
         ("weights", "kOfLargest = 3 * kUnit", "kOfLargest = 0.3 * kUnit", LENGTHS),
         ("weights-unit", "epsilon() / 2;  // the unit", "epsilon() / 20;  // the unit", WEIGHTS),
         ("weights-of-needles", "kOfSharpSquares = 3 *", "kOfSharpSquares = 0.3 *", WEIGHTS),
+        ("weights-cancelling", "kOfSharpCotangent = 39 *", "kOfSharpCotangent = 0 *", WEIGHTS),
+        ("weights-grown", "kOfErrors = 3 *", "kOfErrors = 0.3 *", WEIGHTS),
+        ("growth-tenth", "return is_open ? 1 : eta", "return is_open ? 1 : 0.1 * eta", LENGTHS),
         ("weights-left-blunt", "return {sharp,", "return {{given},", WEIGHTS),
     )
     | of(
         ROOM + "mesh/delaunay.cpp",
         ("flipped-unit", "kUnit = std::numeric_limits<double>::epsilon() / 2", "kUnit = 1.1e-17", LENGTHS),
+        ("flipped-length", "return {length, rounding}", "return {length, 0.1 * rounding}", LENGTHS),
         ("delaunay-tolerance", "kDelaunayTolerance = 1e-9", "kDelaunayTolerance = 1e-3", DELAUNAY),
     )
     | of(ROOM + "mesh/triangle_geometry.h", ("flatness", "kFlatMargin = 1e-15", "kFlatMargin = 1e-13", DELAUNAY))
@@ -86,6 +96,14 @@ MUTATIONS = (
         ("sums-cut", "(a - (sum - taken)) + (b - taken)", "b - taken", DIGITS),
     )
     | of(
+        PACKAGE + "forms/refined_triangles.py",
+        ("medians", "OF_MEDIAN = 2.5 *", "OF_MEDIAN = 0.25 *", REFINED),
+        ("medians-growth", "change * (1 + change), 1)", "0.1 * change, 1)", REFINED),
+        ("medians-after-others", "errors + growth + errors * growth", "errors + growth", REFINED),
+        ("areas-of-needles", "(c - (a - b)) * (c + (a - b))", "(c - a + b) * (c + a - b)", REFINED),
+        ("halves-of-classes", "np.where(along[:, None], whole.classes, 0)", "whole.classes", NARROW),
+    )
+    | of(
         PACKAGE + "forms/certificate.py",
         ("slack-none", "SLACK = 2.0**-50", "SLACK = 0.0", BOUNDS),
         ("slack-tenth", "SLACK = 2.0**-50", "SLACK = 0.1 * 2.0**-50", BOUNDS),
@@ -113,6 +131,7 @@ MUTATIONS = (
         ("memory-multigrid", "kMultigrid = 350", "kMultigrid = 87", MEMORY),
         ("memory-columns", "kPerColumn = 24", "kPerColumn = 6", MEMORY),
         ("memory-dense", "kDenseMatrices = 40", "kDenseMatrices = 10", MEMORY),
+        ("memory-direct", "kDirectCopies = 6 * 8", "kDirectCopies = 0", MEMORY),
     )
     | of(
         ROOM + "moduli/equivalence.cpp",
@@ -123,6 +142,45 @@ MUTATIONS = (
             "least = std::max(least, isometry.excess)",
             EQUIVALENCE,
         ),
+    )
+    | of(
+        PACKAGE + "moduli/equivalence.py",
+        ("exact", "EXACT = 1e-8", "EXACT = 1e-7", SURFACES),
+        ("agreement-loose", "AGREEMENT = 0.25", "AGREEMENT = 0.5", SURFACES),
+        ("agreement-strict", "AGREEMENT = 0.25", "AGREEMENT = 0.1", SURFACES),
+        ("agreement-of-different", "found.residual <= found.tolerance / 2", "True", CURVES),
+    )
+    | of(
+        ROOM + "moduli/similarities.h",
+        ("similar-loose", "kSimilar = 1e-8", "kSimilar = 1e-7", SIMILAR),
+        ("similar-strict", "kSimilar = 1e-8", "kSimilar = 1e-9", SIMILAR),
+    )
+    | of(
+        PACKAGE + "moduli/theta_constants.py",
+        ("theta-terms", "SMALLEST_TERM = 40.0", "SMALLEST_TERM = 10.0", THETA),
+        ("theta-rounding", "ROUNDING = 1e-12", "ROUNDING = 1e-17", THETA),
+        ("theta-bounds", "np.pi * change * energy", "0.5 * np.pi * change * energy", THETA),
+        ("theta-denied", "(sizes > errors).all()", "(sizes > 0.0).all()", THETA),
+    )
+    # Periods of curves.
+    | of(
+        PACKAGE + "moduli/curve_periods.py",
+        ("curves-error", "PeriodMatrix.of(omega, error)", "PeriodMatrix.of(omega, 1e-3 * error)", CURVES),
+        ("curves-nodes", "/ (2 * r))) if r > 0", "/ (4 * r))) if r > 0", CURVES),
+        ("curves-truncation", "errors = TRUNCATION * bound", "errors = 1e-3 * TRUNCATION * bound", CURVES),
+        ("curves-growth", "np.abs(roots) * growth", "np.abs(roots)", CURVES),
+        ("curves-coefficients", "radii += 4 *", "radii += 0.4 *", CURVES),
+        ("curves-roots", "np.pi * (values", "0.1 * np.pi * (values", CURVES),
+    )
+    | of(
+        PACKAGE + "forms/period_matrix.py",
+        ("periods-distance", "-np.log1p(-norm)", "norm", CURVES),
+        ("periods-error-lost", "result.error = float(error)", "result.error = 0.0", CURVES),
+    )
+    | of(
+        PACKAGE + "moduli/known_periods.py",
+        ("periods-asymmetry", "change = np.abs(np.asarray(period_matrix) - omega) + ", "change = ", CURVES),
+        ("periods-error-ignored", 'getattr(period_matrix, "error", 0.0) + ', "", CURVES),
     )
     # What maps look like.
     | of(
