@@ -1,21 +1,42 @@
-// One function per class that Python sees, and one for UV maps.
+// The parts of the Python module, and the caller's progress function.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
+#include "base/execution.h"
+
 namespace holomorph::bindings {
 
-void bind_records(pybind11::module_& m);
-void bind_surface(pybind11::module_& m);
-void bind_islands(pybind11::module_& m);
-void bind_structure(pybind11::module_& m);
-void bind_progressive_mesh(pybind11::module_& m);
-void bind_laplace_problem(pybind11::module_& m);
+void bind_surfaces(pybind11::module_& m);
+void bind_structures(pybind11::module_& m);
+void bind_maps(pybind11::module_& m);
+void bind_tilings(pybind11::module_& m);
 void bind_moduli(pybind11::module_& m);
-void bind_nested_level(pybind11::module_& m);
-void bind_plane_maps(pybind11::module_& m);
-void bind_tiles(pybind11::module_& m);
-void bind_tiling(pybind11::module_& m);
-void bind_uv_maps(pybind11::module_& m);
+
+/// Returns a progress function that looks for Ctrl-C, for callers who give none. Python runs signal handlers in the
+/// main thread alone, which is busy here. @throws what the handler raises, mostly KeyboardInterrupt
+inline Execution::Callback interruptible() {
+  const auto threading = pybind11::module_::import("threading");
+  if (!threading.attr("current_thread")().is(threading.attr("main_thread")())) return {};
+  return [](double, const std::string&) {
+    const pybind11::gil_scoped_acquire locked;
+    if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
+    return true;
+  };
+}
+
+/// Wraps the caller's progress function; None stands for no function. Python's function is called with the
+/// interpreter's lock held. It answers False, Python's or NumPy's, to cancel.
+inline Execution::Callback callback(const pybind11::object& progress) {
+  if (progress.is_none()) return interruptible();
+  return [progress](double fraction, const std::string& stage) {
+    const pybind11::gil_scoped_acquire locked;
+    const pybind11::object answer = progress(fraction, stage);
+    pybind11::detail::make_caster<bool> is_true;
+    return !is_true.load(answer, false) || static_cast<bool>(is_true);
+  };
+}
 
 }  // namespace holomorph::bindings

@@ -51,16 +51,9 @@ PYBIND11_MODULE(_native, m) {
                        "A linear system was not solved to the accuracy asked for, or does not fit into memory.");
   declare<Cancelled>(m, "Cancelled", base, "The progress function returned False.");
   declare_out_of_memory(m, base);
-  bindings::bind_records(m);
-  bindings::bind_surface(m);
-  bindings::bind_progressive_mesh(m);
-  bindings::bind_islands(m);
-  bindings::bind_structure(m);
-  bindings::bind_laplace_problem(m);
+  bindings::bind_surfaces(m);
+  bindings::bind_maps(m);
+  bindings::bind_structures(m);
+  bindings::bind_tilings(m);
   bindings::bind_moduli(m);
-  bindings::bind_nested_level(m);
-  bindings::bind_plane_maps(m);
-  bindings::bind_tiles(m);
-  bindings::bind_tiling(m);
-  bindings::bind_uv_maps(m);
 }

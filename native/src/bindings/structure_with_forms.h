@@ -1,4 +1,4 @@
-// What Python holds of a structure.
+// Python handle of a Structure with its lazily solved forms.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bindings/arrays.h"
-#include "bindings/callback.h"
+#include "bindings/bindings.h"
 #include "structure/uv_forms.h"
 
 namespace holomorph::bindings {
@@ -40,11 +40,5 @@ struct Structure {
   }
 };
 using StructurePointer = std::shared_ptr<Structure>;
-
-/// Loops, classes and the fundamental domain, in integers.
-void bind_topology(py::class_<Structure, StructurePointer>& type);
-
-/// Gram matrices and what follows from them.
-void bind_invariants(py::class_<Structure, StructurePointer>& type);
 
 }  // namespace holomorph::bindings

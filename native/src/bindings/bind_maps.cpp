@@ -1,0 +1,311 @@
+// Maps into the plane (UVs, maps of disks, islands), and records of solves.
+#include <pybind11/complex.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "bindings/arrays.h"
+#include "bindings/bindings.h"
+#include "bindings/records.h"
+#include "evening/evening.h"
+#include "forms/averaged_star.h"
+#include "islands/cuts_to_disks.h"
+#include "islands/filling.h"
+#include "islands/flattening.h"
+#include "islands/joining.h"
+#include "islands/parting.h"
+#include "multiresolution/harmonic_map.h"
+#include "plane/clear_corners.h"
+#include "plane/free_boundary.h"
+#include "plane/rectangle.h"
+#include "plane/rectangle_corners.h"
+#include "plane/triangle_map.h"
+#include "structure/memory_plan.h"
+#include "structure/solver_report.h"
+#include "uv/placement.h"
+#include "uv/quality.h"
+
+namespace holomorph::bindings {
+namespace {
+
+using islands::Flattening;
+using plane::PlaneMap;
+using Complex = std::complex<double>;
+
+Eigen::Map<const uv::UvArray> corners(const Contiguous<double>& uv) { return {uv.data(), uv.shape(0), 2}; }
+
+uv::Quality quality(const mesh::Surface& surface, const Contiguous<double>& uv, int threads) {
+  const py::gil_scoped_release unlocked;
+  Workers workers(threads);
+  return uv::quality(surface, corners(uv), workers);
+}
+
+uv::Frame frame(const mesh::Surface& surface, const Contiguous<double>& uv, double rotation, int threads) {
+  const py::gil_scoped_release unlocked;
+  Workers workers(threads);
+  return uv::frame(surface, corners(uv), rotation, workers);
+}
+
+Zeros zeros(const mesh::Surface& surface, const Contiguous<double>& uv, const std::vector<int>& poles) {
+  return zeros_of_map(surface, corners(uv), poles);
+}
+
+// The facade has checked shapes and types; `rows` is empty where row c is that of corner c.
+void place(const Contiguous<double>& uv, Complex factor, Complex origin, Complex target,
+           const py::array_t<int, py::array::c_style>& rows, py::array_t<double, py::array::c_style> placed,
+           int threads) {
+  double* const values = placed.mutable_data();
+  const int* const at = rows.size() == 0 ? nullptr : rows.data();
+  const py::gil_scoped_release unlocked;
+  Workers workers(threads);
+  uv::place(corners(uv), {factor, origin, target}, at, values, workers);
+}
+
+multiresolution::HarmonicMap harmonic_map(const mesh::Surface& surface, const Contiguous<double>& corner_values,
+                                          const std::string& solver, int threads, const py::object& progress_function) {
+  using Rows = forms::RowMajorMatrix;
+  const Rows given = Eigen::Map<const Rows>(corner_values.data(), corner_values.shape(0), corner_values.shape(1));
+  Execution execution(threads, callback(progress_function));
+  const py::gil_scoped_release unlocked;
+  return multiresolution::harmonic_map(surface, given, {solver}, execution);
+}
+
+// #V x 2. The facade has checked shapes and vertices, and that the surface is connected.
+py::array evened(const mesh::Surface& surface, const Contiguous<double>& uv, std::vector<int> poles, std::vector<int> u,
+                 std::vector<int> v, double evenness, const std::string& solver, int threads,
+                 const py::object& progress) {
+  const uv::UvArray given = corners(uv);
+  uv::UvArray result;
+  Execution execution(threads, callback(progress));
+  {
+    const py::gil_scoped_release unlocked;
+    execution.stage("evening", 0.0, 1.0);
+    result =
+        evening::evened(surface, given, {std::move(poles), std::move(u), std::move(v)}, evenness, execution, solver);
+    execution.finish();
+  }
+  return give_matrix(std::move(result));
+}
+
+// The surface's own triangles, those without area mollified.
+mesh::IntrinsicTriangulation own_triangles(const mesh::Surface& surface, Execution& execution) {
+  return mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
+}
+
+// The star of a form on the edges of any surface.
+py::array averaged_star(const mesh::Surface& surface, const Contiguous<double>& form) {
+  if (form.size() != static_cast<py::ssize_t>(surface.edges.size()))
+    throw py::value_error("a form needs one value for each edge");
+  Execution execution;
+  return copy(forms::averaged_star(own_triangles(surface, execution), values(form)));
+}
+
+// (#E,) on the surface's own triangles.
+py::array edge_weights(const mesh::Surface& surface) {
+  Execution execution;
+  return give(mesh::cotangent_weights(own_triangles(surface, execution), execution));
+}
+
+void bind_uv_maps(py::module_& m) {
+  using multiresolution::HarmonicMap;
+  using uv::Quality;
+  const auto viewed = [](auto member) {
+    return [member](py::object self) { return view(self.cast<const Quality&>().*member, self); };
+  };
+  py::class_<Quality>(m, "Quality")
+      .def_property_readonly("angle", viewed(&Quality::angle))
+      .def_property_readonly("area", viewed(&Quality::area))
+      .def_property_readonly(
+          "flipped",
+          [](py::object self) { return view(self.cast<const Quality&>().flipped, self).attr("view")("bool"); })
+      .def_readonly("mean_angle", &Quality::mean_angle)
+      .def_readonly("density_ratio", &Quality::density_ratio)
+      .def_readonly("median_density", &Quality::median_density);
+  py::class_<uv::Frame>(m, "Frame")
+      .def_readonly("low", &uv::Frame::low)
+      .def_readonly("high", &uv::Frame::high)
+      .def_readonly("area", &uv::Frame::area);
+  py::class_<HarmonicMap>(m, "HarmonicMap")
+      .def_property_readonly("moves", [](const HarmonicMap& map) { return copy(map.moves); })
+      .def_readonly("solver", &HarmonicMap::solver);
+  m.def("quality", &quality, py::arg("surface"), py::arg("uv"), py::arg("threads"));
+  m.def("evened", &evened, py::arg("surface"), py::arg("uv"), py::kw_only(), py::arg("poles"), py::arg("u"),
+        py::arg("v"), py::arg("evenness"), py::arg("solver"), py::arg("threads"), py::arg("progress"));
+  m.def("zeros", &zeros, py::arg("surface"), py::arg("uv"), py::arg("poles"));
+  m.def("frame", &frame, py::arg("surface"), py::arg("uv"), py::arg("rotation"), py::arg("threads"));
+  m.def("place", &place, py::arg("uv"), py::arg("factor"), py::arg("origin"), py::arg("target"), py::arg("rows"),
+        py::arg("placed"), py::arg("threads"));
+  m.def("harmonic_map", &harmonic_map, py::arg("surface"), py::arg("corner_values"), py::arg("solver"),
+        py::arg("threads"), py::arg("progress"));
+  m.def("averaged_star", &averaged_star, py::arg("surface"), py::arg("form"));
+  m.def("edge_weights", &edge_weights, py::arg("surface"));
+}
+
+std::shared_ptr<PlaneMap> rectangle(const mesh::Surface& surface, const std::vector<int>& corners,
+                                    const std::vector<int>& labels, const std::string& solver, int threads,
+                                    const py::object& progress_function) {
+  Execution execution(threads, callback(progress_function));
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<PlaneMap>(plane::rectangle_map(surface, corners, labels, {solver}, execution));
+}
+
+// One without a choice.
+auto plane_map(PlaneMap (*function)(const mesh::Surface&, const plane::Options&, Execution&)) {
+  return [function](const mesh::Surface& surface, const std::string& solver, int threads,
+                    const py::object& progress_function) {
+    Execution execution(threads, callback(progress_function));
+    const py::gil_scoped_release unlocked;
+    return std::make_shared<PlaneMap>(function(surface, {solver}, execution));
+  };
+}
+
+// One that needs the surface alone.
+template <class Result>
+auto of_surface(Result (*function)(const mesh::Surface&, Execution&)) {
+  return [function](const mesh::Surface& surface) {
+    const py::gil_scoped_release unlocked;
+    Execution execution;
+    return function(surface, execution);
+  };
+}
+
+void bind_plane_maps(py::module_& m) {
+  py::class_<PlaneMap, std::shared_ptr<PlaneMap>>(m, "PlaneMap")
+      .def("points", [](const PlaneMap& map) { return copy(map.points); })
+      .def("corners", [](const PlaneMap& map) { return copy(map.corners); })
+      .def_readonly("modulus", &PlaneMap::modulus)
+      .def_readonly("lower", &PlaneMap::lower)
+      .def_readonly("upper", &PlaneMap::upper)
+      .def("scale_factors", [](const PlaneMap& map) { return copy(map.scale_factors); })
+      .def("collapsed_triangles", [](const PlaneMap& map) { return copy(map.collapsed_triangles); })
+      .def("residuals", [](const PlaneMap& map) { return Residuals{.harmonicity = map.harmonicity}; })
+      .def("solver", [](const PlaneMap& map) { return map.solver; })
+      .def("flip_count", [](const PlaneMap& map) { return map.flip_count; })
+      .def("mollification", [](const PlaneMap& map) { return map.mollification; })
+      .def("metric_error", [](const PlaneMap& map) { return map.metric; })
+      .def("timings", [](const PlaneMap& map) { return map.seconds; });
+  m.def("rectangle_map", &rectangle, py::arg("surface"), py::arg("corners"), py::arg("labels"), py::arg("solver"),
+        py::arg("threads"), py::arg("progress"));
+  m.def("triangle_map", plane_map(&plane::triangle_map), py::arg("surface"), py::arg("solver"), py::arg("threads"),
+        py::arg("progress"));
+  m.def("free_boundary_map", plane_map(&plane::free_boundary_map), py::arg("surface"), py::arg("solver"),
+        py::arg("threads"), py::arg("progress"));
+  m.def("boundary_length", of_surface(&plane::boundary_length));
+  m.def("quarter_corners", of_surface(&plane::quarter_corners));
+  m.def("clear_corners", of_surface(&plane::clear_corners));
+}
+
+// (#E,) flags
+py::array cuts_to_disks(const mesh::Surface& surface, const py::object& progress) {
+  Execution execution(1, callback(progress));
+  std::vector<char> cuts;
+  {
+    const py::gil_scoped_release unlocked;
+    execution.stage("cuts", 0.0, 1.0);
+    cuts = islands::cuts_to_disks(surface, execution);
+  }
+  return copy(cuts);
+}
+
+std::shared_ptr<mesh::Surface> filled(const mesh::Surface& surface) {
+  Execution execution(1);
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<mesh::Surface>(islands::filled(surface, execution));
+}
+
+Flattening flattened(const mesh::Surface& surface, int threads, const py::object& progress) {
+  Execution execution(threads, callback(progress));
+  const py::gil_scoped_release unlocked;
+  return islands::flattened(surface, execution);
+}
+
+// (#C, 2) UVs
+py::array evened_islands(const mesh::Surface& surface, const Flattening& flattening, double evenness, int threads,
+                         const py::object& progress) {
+  Execution execution(threads, callback(progress));
+  uv::UvArray uv;
+  {
+    const py::gil_scoped_release unlocked;
+    uv = islands::evened(surface, flattening, evenness, execution);
+  }
+  return give_matrix(std::move(uv));
+}
+
+// (#C, 2) UVs and the nets of the components. The facade has made the arguments.
+py::tuple joined(const mesh::Surface& surface, const Contiguous<double>& uv, const Contiguous<int>& joints,
+                 const Contiguous<char>& is_joinable) {
+  uv::UvArray moved = Eigen::Map<const uv::UvArray>(uv.data(), uv.shape(0), 2);
+  const auto pairs = rows<int, 4>(joints);
+  const auto flags = values<char>(is_joinable);
+  std::vector<int> nets;
+  {
+    const py::gil_scoped_release unlocked;
+    nets = islands::joined(surface, moved, pairs, flags);
+  }
+  return py::make_tuple(give_matrix(std::move(moved)), give(std::move(nets)));
+}
+
+// (#F,) the part of each polygon
+py::array parted(const mesh::Surface& surface, const Contiguous<double>& uv) {
+  const uv::UvArray flat = Eigen::Map<const uv::UvArray>(uv.data(), uv.shape(0), 2);
+  std::vector<int> parts;
+  {
+    const py::gil_scoped_release unlocked;
+    parts = islands::parted(surface, flat);
+  }
+  return give(std::move(parts));
+}
+
+void bind_islands(py::module_& m) {
+  py::class_<Flattening>(m, "Flattening")
+      .def_property_readonly("scale_factors", [](const Flattening& flat) { return copy(flat.scale_factors); })
+      .def_property_readonly("is_flat", [](const Flattening& flat) { return copy(flat.is_flat); });
+  m.def("cuts_to_disks", &cuts_to_disks, py::arg("surface"), py::arg("progress"));
+  m.def("filled", &filled, py::arg("surface"));
+  m.def("flattened", &flattened, py::arg("surface"), py::arg("threads"), py::arg("progress"));
+  m.def("evened_islands", &evened_islands, py::arg("surface"), py::arg("flattening"), py::arg("evenness"),
+        py::arg("threads"), py::arg("progress"));
+  m.def("parted", &parted, py::arg("surface"), py::arg("uv"));
+  m.def("joined", &joined, py::arg("surface"), py::arg("uv"), py::arg("joints"), py::arg("is_joinable"));
+}
+
+void bind_records(py::module_& m) {
+  using structure::LevelReport;
+  using structure::MemoryPlan;
+  using structure::SolverReport;
+  py::class_<Zeros>(m, "Zeros")
+      .def_property_readonly("vertices", [](const Zeros& z) { return copy(z.vertices); })
+      .def_property_readonly("orders", [](const Zeros& z) { return copy(z.orders); });
+  py::class_<Residuals>(m, "Residuals")
+      .def_readonly("closedness", &Residuals::closedness)
+      .def_readonly("harmonicity", &Residuals::harmonicity)
+      .def_readonly("periods", &Residuals::periods)
+      .def_readonly("pairing", &Residuals::pairing)
+      .def_readonly("asymmetry", &Residuals::asymmetry);
+  py::class_<LevelReport>(m, "LevelReport")
+      .def_readonly("faces", &LevelReport::faces)
+      .def_readonly("iterations", &LevelReport::iterations)
+      .def_readonly("seconds", &LevelReport::seconds);
+  py::class_<SolverReport>(m, "SolverReport")
+      .def_readonly("name", &SolverReport::name)
+      .def_readonly("reason", &SolverReport::reason)
+      .def_readonly("iterations", &SolverReport::iterations)
+      .def_readonly("residual", &SolverReport::residual)
+      .def_readonly("levels", &SolverReport::levels);
+  py::class_<MemoryPlan>(m, "MemoryPlan")
+      .def_readonly("keeps_forms", &MemoryPlan::keep_forms)
+      .def_readonly("block", &MemoryPlan::block)
+      .def_readonly("bytes", &MemoryPlan::bytes);
+}
+
+}  // namespace
+
+void bind_maps(py::module_& m) {
+  bind_records(m);
+  bind_uv_maps(m);
+  bind_plane_maps(m);
+  bind_islands(m);
+}
+
+}  // namespace holomorph::bindings
