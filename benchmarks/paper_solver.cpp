@@ -4,14 +4,14 @@
 #include <ctime>
 #include <iostream>
 
-#include "forms/codifferential.h"
+#include "forms/closed_forms.h"
 #include "forms/laplacian.h"
 #include "mesh/components.h"
 #include "mesh/io/read.h"
 #include "mesh/make_surface.h"
 #include "multiresolution/paper_forms.h"
 #include "progressive/simplify.h"
-#include "structure/double_cover.h"
+#include "structure/harmonic_solver.h"
 #include "structure/topology.h"
 #include "topology/fundamental_domain.h"
 

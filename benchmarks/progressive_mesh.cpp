@@ -18,8 +18,8 @@
 
 #include "mesh/io/read.h"
 #include "mesh/make_surface.h"
-#include "progressive/levels.h"
 #include "progressive/progressive_mesh.h"
+#include "progressive/refinement.h"
 #include "progressive/simplify.h"
 
 namespace {

@@ -135,7 +135,7 @@ MUTATIONS = (
     )
     | of(
         ROOM + "moduli/equivalence.cpp",
-        ("equivalence-rounding", "kRounding = 1e-9", "kRounding = 1e-7", EQUIVALENCE),
+        ("equivalence-rounding", "kLeastTolerance = 1e-9", "kLeastTolerance = 1e-7", EQUIVALENCE),
         (
             "equivalence-margin",
             "least = std::min(least, isometry.excess)",
@@ -224,13 +224,13 @@ MUTATIONS = (
         ("copies", "SINGLE = 2.0**-22", "SINGLE = 2.0**-18", PARTS),
         ("copies-tenth", "SINGLE = 2.0**-22", "SINGLE = 0.1 * 2.0**-22", PARTS),
     )
-    | of(ROOM + "mesh/wild_vertices.h", ("wild", "kWild = 1e9", "kWild = 1e13", WILD))
+    | of(ROOM + "mesh/input_filter.h", ("wild", "kWild = 1e9", "kWild = 1e13", WILD))
     | of(
         ROOM + "mesh/slivers.cpp",
         ("slivers-shortest-sides", "surface.edge_lengths[a] > surface", "surface.edge_lengths[a] < surface", SLIVERS),
         ("slivers-rounding", "kCoordinateRounding = 0x1p-20", "kCoordinateRounding = 0x1p-40", SLIVERS),
     )
-    | of(ROOM + "mesh/continuations.cpp", ("slivers-as-others", "? 2 : 0;  // what", "? 0 : 0;  // what", SLIVERS))
+    | of(ROOM + "mesh/stitching.cpp", ("slivers-as-others", "? 2 : 0;  // what", "? 0 : 0;  // what", SLIVERS))
     | of(ROOM + "islands/cuts_to_disks.cpp", ("paths-stop", "kShortest = 1e-12", "kShortest = 0", SLIVERS))
     | of(PACKAGE + "mesh/cut_open.py", ("paths-stop-at-places", "SHORTEST = 1e-12", "SHORTEST = 0.0", SLIVERS))
     | of(PACKAGE + "cutting/hard_edges.py", ("slivers-own-normals", "[surface._native.sliver_owners()]", "", SLIVERS))

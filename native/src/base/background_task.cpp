@@ -19,7 +19,7 @@ BackgroundTask::BackgroundTask(Work work, Execution& execution) {
         work(own);
       });
       return;
-    } catch (const std::system_error&) {  // no more threads: the calling one does it
+    } catch (const std::system_error&) {  // thread creation failed: the calling thread runs the task
     }
   }
   work(execution);

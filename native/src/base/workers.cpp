@@ -47,7 +47,7 @@ void Workers::start() {
   try {
     for (int thread = 1; thread < count_; ++thread) threads_.emplace_back(&Workers::work, this, thread);
   } catch (const std::system_error&) {
-    count_ = static_cast<int>(threads_.size()) + 1;  // no more threads: those that there are do the work
+    count_ = static_cast<int>(threads_.size()) + 1;  // thread creation failed: run on those already started
   }
 }
 

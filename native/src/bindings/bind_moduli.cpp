@@ -7,10 +7,9 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "mesh/intrinsic_surface.h"
-#include "moduli/carried_uv.h"
 #include "moduli/continuation.h"
 #include "moduli/equivalence.h"
-#include "moduli/map_derivatives.h"
+#include "moduli/pull_back_uv.h"
 #include "moduli/similarities.h"
 #include "structure/nested_level.h"
 

@@ -12,16 +12,15 @@
 #include "bindings/records.h"
 #include "bindings/structure_with_forms.h"
 #include "conformal/certain_bounds.h"
-#include "multiresolution/paper_structure.h"
+#include "multiresolution/paper_forms.h"
 #include "plane/disk_map.h"
-#include "plane/sphere_map.h"
 #include "structure/balanced_map.h"
 #include "structure/conformal_structure.h"
-#include "structure/laplace_problem.h"
+#include "structure/harmonic_solver.h"
 #include "structure/nested_level.h"
 #include "structure/pole_structure.h"
+#include "structure/primal_forms.h"
 #include "structure/solver_report.h"
-#include "structure/uv_forms.h"
 #include "topology/fundamental_domain.h"
 
 namespace holomorph::bindings {
@@ -95,7 +94,7 @@ py::array integer_classes(const Structure& s) {
   return give_matrix(std::move(values));
 }
 
-// The fundamental domain is not kept: it is found again, the same.
+// The fundamental domain, recomputed on demand; deterministic.
 struct DomainArrays {
   Array<int> faces;
   std::vector<int> joined, boundary, tree, left_over;  // half-edges of the boundary; edges of the others

@@ -18,8 +18,8 @@
 #include "mesh/slivers.h"
 #include "progressive/corner_values.h"
 #include "progressive/file_format.h"
-#include "progressive/levels.h"
 #include "progressive/progressive_mesh.h"
+#include "progressive/refinement.h"
 #include "progressive/simplify.h"
 #include "topology/pulled_back_classes.h"
 

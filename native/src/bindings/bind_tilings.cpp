@@ -6,7 +6,7 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/records.h"
-#include "mesh/crossings.h"
+#include "mesh/self_intersections.h"
 #include "tiles/cells.h"
 #include "tiles/corner_fans.h"
 #include "tiles/lines.h"
@@ -174,7 +174,7 @@ py::array crossings(const Contiguous<double>& vertices, const Contiguous<int>& t
   {
     const py::gil_scoped_release unlocked;
     Execution execution(threads);
-    pairs = mesh::crossings(points, corners, execution);
+    pairs = mesh::self_intersections(points, corners, execution);
   }
   py::array_t<int> result({static_cast<py::ssize_t>(pairs.size()), py::ssize_t{2}});
   if (!pairs.empty()) std::memcpy(result.mutable_data(), pairs.data(), pairs.size() * sizeof(mesh::Pair));

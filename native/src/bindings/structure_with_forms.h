@@ -9,7 +9,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
-#include "structure/uv_forms.h"
+#include "structure/primal_forms.h"
 
 namespace holomorph::bindings {
 

@@ -1,33 +1,29 @@
 #include "conformal/projection.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <string>
 
 #include "base/errors.h"
+#include "linear/dense.h"
 
 namespace holomorph::conformal {
 
 using Eigen::MatrixXd;
 
-MatrixXd inverse(const MatrixXd& A) { return A.llt().solve(MatrixXd::Identity(A.rows(), A.cols())); }
+MatrixXd inverse(const MatrixXd& A) { return linear::Cholesky(A).inverse(); }
 MatrixXd symmetric(const MatrixXd& A) { return (A + A.transpose()) / 2; }
 
 MatrixXd geometric_mean(const MatrixXd& A, const MatrixXd& B) {
-  const Eigen::LLT<MatrixXd> root(A);
-  if (root.info() != Eigen::Success)
+  const linear::Cholesky root(A);
+  if (!root.succeeded())
     throw SolverError("the Gram matrix of " + std::to_string(A.rows()) + " forms is not positive definite");
   // A # B = L (L^-1 B L^-T)^(1/2) L^T for any L with A = L L^T: the mean is invariant under congruence.
-  const MatrixXd L = root.matrixL();
-  const MatrixXd half = L.triangularView<Eigen::Lower>().solve(B);
-  const MatrixXd inner = L.triangularView<Eigen::Lower>().solve(half.transpose());  // L^-1 B L^-T
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(symmetric(inner));
-  if (eigen.info() != Eigen::Success || !(eigen.eigenvalues().minCoeff() > 0)) {
+  const MatrixXd L = root.lower(), inner = root.solve_lower(root.solve_lower(B).transpose());  // L^-1 B L^-T
+  const auto middle = linear::square_root(symmetric(inner));
+  if (!middle) {
     throw SolverError("the Gram matrix of " + std::to_string(A.rows()) +
                       " forms is too badly conditioned to be projected");
   }
-  return symmetric(L * eigen.operatorSqrt() * L.transpose());
+  return symmetric(L * *middle * L.transpose());
 }
 
 ProjectedStar projected_star(const MatrixXd& G_N, const MatrixXd& G_D, const MatrixXd& W) {
@@ -35,8 +31,8 @@ ProjectedStar projected_star(const MatrixXd& G_N, const MatrixXd& G_D, const Mat
   result.lower = symmetric(W * inverse(G_D) * W.transpose());
   result.natural_gram = geometric_mean(G_N, result.lower);
   result.dirichlet_gram = symmetric(W.transpose() * inverse(result.natural_gram) * W);
-  const Eigen::PartialPivLU<MatrixXd> factors(W);  // C W^T = G, and G is symmetric: C^T = W^-1 G
-  result.star = factors.solve(result.natural_gram).transpose();
+  // C W^T = G, and G is symmetric: C^T = W^-1 G.
+  result.star = linear::solve(W, result.natural_gram).transpose();
   return result;
 }
 

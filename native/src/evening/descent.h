@@ -1,14 +1,21 @@
-// Limited-memory BFGS with a preconditioner (Nocedal & Wright, Numerical Optimization, algorithm 7.4), for functions on
-// the vertices of a surface.
+// The descent of the strain energy, on the whole surface or on a patch.
 #pragma once
 
 #include <deque>
 #include <functional>
+#include <vector>
 
 #include "base/workers.h"
 #include "evening/strain_energy.h"
 
 namespace holomorph::evening {
+
+/// The energy of a part of the surface. Its map is the one with delta, so that its own function starts at 0.
+struct StrainEnergy::Patch {
+  StrainEnergy energy;
+  std::vector<int> vertices;  ///< vertices of the surface: the free ones first
+  int free_count = 0;         ///< how many of them are free to move
+};
 
 /// Applies an approximate inverse of the second derivatives, symmetric and positive.
 using Precondition = std::function<Function(const Function& gradient)>;

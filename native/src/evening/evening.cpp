@@ -7,7 +7,6 @@
 
 #include "base/chunks.h"
 #include "evening/descent.h"
-#include "evening/patch.h"
 #include "forms/laplacian.h"
 #include "mesh/half_edges.h"
 #include "solver/direct/sparse_cholesky.h"

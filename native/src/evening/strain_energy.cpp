@@ -171,7 +171,7 @@ double StrainEnergy::stiffness_of(const Triangle& triangle, const Function& delt
 
 Array<double> StrainEnergy::edge_weights(const mesh::Surface& surface, const Function& delta, double lambda) const {
   Array<double> weights(surface.edges.size());
-  // Where no triangle counts the system is to have one solution all the same.
+  // Keeps the system regular if all triangle weights are 0.
   std::fill(weights.begin(), weights.end(), kLeastStiff * std::exp(-log_size_) / whole_area_);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const Triangle& triangle = triangles_[t];

@@ -3,7 +3,7 @@
 #include <array>
 #include <type_traits>
 
-#include "forms/block_sums.h"
+#include "forms/gram_matrices.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::forms {

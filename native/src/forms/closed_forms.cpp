@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "base/chunks.h"
+#include "base/page_allocator.h"
+
 namespace holomorph::forms {
 namespace {
 
@@ -10,6 +13,18 @@ using mesh::HalfedgeHandle;
 
 // Edges whose values are written at a time.
 constexpr int kEdgeBlock = 4096;
+
+// A column of values at the vertices for each right-hand side; the system makes its pages in parallel.
+Eigen::MatrixXd zeros(Eigen::Index vertices, Eigen::Index count, Workers& workers) {
+  Eigen::MatrixXd B(vertices, count);
+  advise_large_pages(B.data(), B.size() * sizeof(double));
+  const int n = static_cast<int>(B.rows());
+  run_throwing(workers, chunk_count(n), [&](int chunk) {
+    const int begin = chunk * kChunk;
+    B.middleRows(begin, std::min(kChunk, n - begin)).setZero();
+  });
+  return B;
+}
 
 }  // namespace
 
@@ -65,6 +80,61 @@ double period_residual(const EdgeEnds& ends, const ClosedForms& forms,
   Eigen::MatrixXd found = periods(ends, forms, loops).leftCols(dual);
   for (Eigen::Index j = 0; j < dual; ++j) found(forms.first + j, j) -= 1;
   return found.cwiseAbs().maxCoeff();
+}
+
+Eigen::MatrixXd codifferentials(const EdgeEnds& ends, std::span<const double> weights,
+                                const topology::IntegerForms& classes, Workers& workers) {
+  return codifferentials(ends, weights, classes, 0, classes.form_count, workers);
+}
+
+Eigen::MatrixXd codifferentials(const EdgeEnds& ends, std::span<const double> weights,
+                                const topology::IntegerForms& classes, int first, int count, Workers& workers) {
+  Eigen::MatrixXd B = zeros(ends.vertex_count(), count, workers);
+  for (const int e : classes.rows.edges()) {
+    // d^T adds a flux at the head and subtracts it at the tail; the signs are those of -d^T. Edges where all classes
+    // are 0 add nothing.
+    const int head = ends.head(e), tail = ends.tail(e);
+    for (const auto& [i, value] : topology::forms_between(classes.rows[e], first, first + count)) {
+      B(head, i - first) -= weights[e] * value;
+      B(tail, i - first) += weights[e] * value;
+    }
+  }
+  return B;
+}
+
+Eigen::MatrixXd codifferentials(const EdgeEnds& ends, std::span<const double> weights,
+                                const topology::IntegerForms& classes, const Eigen::MatrixXd& combinations,
+                                Workers& workers) {
+  Eigen::MatrixXd B = zeros(ends.vertex_count(), combinations.cols(), workers);
+  Eigen::RowVectorXd flux(combinations.cols());
+  for (const int e : classes.rows.edges()) {
+    flux.setZero();
+    for (const auto& [i, value] : classes.rows[e]) flux += weights[e] * value * combinations.row(i);
+    B.row(ends.head(e)) -= flux;
+    B.row(ends.tail(e)) += flux;
+  }
+  return B;
+}
+
+Eigen::MatrixXd codifferentials(const EdgeEnds& ends, std::span<const double> weights,
+                                const RowMajorMatrix& edge_values, Workers& workers) {
+  Eigen::MatrixXd B = zeros(ends.vertex_count(), edge_values.cols(), workers);
+  for (int e = 0; e < ends.edge_count(); ++e) {
+    B.row(ends.head(e)) -= weights[e] * edge_values.row(e);
+    B.row(ends.tail(e)) += weights[e] * edge_values.row(e);
+  }
+  return B;
+}
+
+Eigen::MatrixXd class_products(const EdgeEnds& ends, std::span<const double> weights,
+                               const topology::IntegerForms& classes, const ClosedForms& forms) {
+  RowMajorMatrix products = RowMajorMatrix::Zero(classes.form_count, forms.functions.cols());
+  for (const int e : classes.rows.edges()) {
+    if (classes.rows[e].empty()) continue;
+    const Eigen::RowVectorXd flux = weights[e] * edge_values(ends, forms, e, e + 1).row(0);
+    for (const auto& [i, value] : classes.rows[e]) products.row(i) += value * flux;
+  }
+  return products;
 }
 
 }  // namespace holomorph::forms

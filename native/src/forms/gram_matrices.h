@@ -1,15 +1,41 @@
-// Gram matrices of closed forms, with a bound of all rounding.
+// Inner products of forms, and their averaged star.
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "base/chunks.h"
 #include "base/execution.h"
 #include "forms/closed_forms.h"
 #include "mesh/half_edges.h"
+#include "mesh/intrinsic_triangulation.h"
 
 namespace holomorph::forms {
+
+/// Elements per block.
+inline constexpr int kBlock = 4096;
+/// Blocks that run in parallel before their sums are added and the progress function is called.
+inline constexpr int kBatch = 16;
+
+/// Runs `work(slot, begin, end)` on all blocks, batch by batch, and after each batch `collect(slot)` in the order of
+/// its blocks; slots are 0 .. kBatch - 1. @param from,to of the progress function
+template <class Work, class Collect>
+void for_blocks(std::size_t elements, Execution& execution, double from, double to, Work work, Collect collect) {
+  Workers& workers = execution.workers();
+  const int blocks = static_cast<int>((elements + kBlock - 1) / kBlock);
+  for (int first = 0; first < blocks; first += kBatch) {
+    const int count = std::min(kBatch, blocks - first);
+    run_throwing(workers, count, [&](int slot) {
+      const std::size_t begin = static_cast<std::size_t>(first + slot) * kBlock;
+      work(slot, static_cast<int>(begin), static_cast<int>(std::min(elements, begin + kBlock)));
+    });
+    for (int slot = 0; slot < count; ++slot) collect(slot);
+    execution.report(from + (to - from) * (first + count) / blocks);
+  }
+}
 
 /// G_ij = sum_e k_e h_i(e) h_j(e), exactly the L2 products of the piecewise constant forms.
 struct GramMatrix {
@@ -32,5 +58,11 @@ std::vector<GramMatrix> gram_matrices(const mesh::HalfEdges& half_edges, std::sp
 /// the energies on the surface as given, of the forms eta_i + d f_i with f_i as stored. E bounds all errors together:
 /// those of the weights, of differences of functions and of the sums in any order.
 Eigen::MatrixXd gram_errors(const GramMatrix& gram);
+
+/// Averages the face-wise star: on each edge the mean over its two faces, or the value on its one face. The result is
+/// not closed, so it has no well-defined integral.
+/// @param triangulation mollified: in a triangle without area there is no star
+/// @param form,result #E values along half-edge 2e
+std::vector<double> averaged_star(const mesh::IntrinsicTriangulation& triangulation, const std::vector<double>& form);
 
 }  // namespace holomorph::forms

@@ -5,7 +5,7 @@
 
 #include "base/execution.h"
 #include "mesh/half_edges.h"
-#include "solver/laplacian.h"
+#include "solver/laplace_solver.h"
 
 namespace holomorph::forms {
 

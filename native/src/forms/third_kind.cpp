@@ -1,9 +1,9 @@
 #include "forms/third_kind.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "forms/codifferential.h"
+#include "forms/closed_forms.h"
+#include "linear/dense.h"
 
 namespace holomorph::forms {
 namespace {
@@ -161,7 +161,7 @@ Eigen::MatrixXd harmonic_part(const HalfEdges& half_edges, const PoleForms& pole
   leaving_links(half_edges, poles.stars, [&](int a, HalfedgeHandle h) {
     P -= poles.outer_weights[edge_of(h)] * along(half_edges, harmonic, n, h) * u.row(a);
   });
-  return gram_matrix.llt().solve(P - flux_products(half_edges, poles, harmonic, n));
+  return linear::Cholesky(gram_matrix).solve(Eigen::MatrixXd(P - flux_products(half_edges, poles, harmonic, n)));
 }
 
 Eigen::MatrixXd harmonic_part(const HalfEdges& half_edges, std::span<const double> weights, const PoleForms& poles,
@@ -179,7 +179,7 @@ Eigen::MatrixXd harmonic_part(const HalfEdges& half_edges, std::span<const doubl
     for (const auto& [i, value] : poles.classes.rows[e]) whole[i] += value;
     P += along(half_edges, harmonic, n, h) * (outer * whole + inner * (f.row(head) - f.row(tail)));
   }
-  return gram_matrix.llt().solve(P - flux_products(half_edges, poles, harmonic, n));
+  return linear::Cholesky(gram_matrix).solve(Eigen::MatrixXd(P - flux_products(half_edges, poles, harmonic, n)));
 }
 
 }  // namespace holomorph::forms

@@ -6,7 +6,7 @@
 
 #include "mesh/graph_distances.h"
 #include "mesh/half_edges.h"
-#include "mesh/joined_sets.h"
+#include "mesh/union_find.h"
 
 namespace holomorph::islands {
 namespace {

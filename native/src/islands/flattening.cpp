@@ -7,7 +7,7 @@
 #include "evening/evening.h"
 #include "mesh/components.h"
 #include "plane/free_boundary.h"
-#include "uv/placement.h"
+#include "uv/uv_map.h"
 
 namespace holomorph::islands {
 namespace {

@@ -115,7 +115,7 @@ class BlockReduction {
   }
 
   Execution& execution_;
-  Watch watch_;
+  TaskProgress watch_;
   Index n_;
   MatrixXd R_, transform_;  // the transform is integral
   MatrixXd* points_ = nullptr;

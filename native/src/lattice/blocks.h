@@ -1,7 +1,7 @@
 // Reduction of lattices of high rank, block by block: the segments of Koy and Schnorr (2001).
 #pragma once
 
-#include "base/watch.h"
+#include "base/task_progress.h"
 #include "lattice/reduction.h"
 
 namespace holomorph::lattice {

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <string>
 #include <vector>
 
+#include "base/double_double.h"
 #include "base/errors.h"
-#include "lattice/double_double_columns.h"
 
 namespace holomorph::lattice {
 namespace {
@@ -18,6 +19,33 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+// Columns of numbers in twice the working precision.
+
+struct DoubleDoubleColumns {
+  Eigen::MatrixXd high, low;
+
+  /// Does column(k) -= factor * column(j), for a factor that is exact. Error: some 1e-32 of the larger term.
+  void subtract(Eigen::Index k, double factor, Eigen::Index j) {
+    const auto [f, g] = halves(factor);
+    double *h = high.col(k).data(), *l = low.col(k).data();
+    const double *a = high.col(j).data(), *b = low.col(j).data();
+    for (Eigen::Index i = 0; i < high.rows(); ++i) {
+      const auto [u, v] = halves(a[i]);
+      const double product = factor * a[i], product_error = ((f * u - product) + f * v + g * u) + g * v;
+      const double sum = h[i] - product, taken = h[i] - sum;
+      const double sum_error = (h[i] - (sum + taken)) + (taken - product);
+      const double rest = l[i] + (sum_error - product_error - factor * b[i]);
+      h[i] = sum + rest;
+      l[i] = rest - (h[i] - sum);
+    }
+  }
+
+  void swap(Eigen::Index k, Eigen::Index j) {
+    high.col(k).swap(high.col(j));
+    low.col(k).swap(low.col(j));
+  }
+};
 
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
 // Error of Q R that is tolerated until the end, relative to the length of a column: far above rounding, far below
@@ -216,6 +244,29 @@ ReducedBasis reduce(const MatrixXd& B, double delta, const std::function<void()>
 
 IntegerVector nearest_plane(const ReducedBasis& reduced, const VectorXd& target) {
   return original_integers(reduced, nearest_coefficients(reduced, target));
+}
+
+IntegerMatrix integer_kernel(IntegerMatrix A) {
+  using Eigen::Index;
+  IntegerMatrix all = IntegerMatrix::Identity(A.cols(), A.cols());
+  const auto exchange = [&](Index i, Index j) {
+    A.col(i).swap(A.col(j));
+    all.col(i).swap(all.col(j));
+  };
+  // Throughout, A is the given matrix times `all`. In rows that are done, its columns from `rank` on are 0.
+  Index rank = 0;
+  for (Index row = 0; row < A.rows() && rank < A.cols(); ++row) {
+    for (Index j = rank + 1; j < A.cols(); ++j) {
+      while (A(row, j) != 0) {  // the entry falls
+        const std::int64_t times = A(row, rank) / A(row, j);
+        A.col(rank) -= times * A.col(j);
+        all.col(rank) -= times * all.col(j);
+        exchange(rank, j);
+      }
+    }
+    if (A(row, rank) != 0) ++rank;
+  }
+  return all.rightCols(A.cols() - rank);
 }
 
 }  // namespace holomorph::lattice

@@ -1,5 +1,4 @@
-// Lattices B Z^n in R^m: reduced bases (Lenstra, Lenstra & Lovasz 1982, doi:10.1007/BF01457454) and Babai's nearest
-// plane (1986, doi:10.1007/BF02579403).
+// Reduction of lattices by LLL, and the integer kernel of a matrix.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,5 +37,10 @@ ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = 0.99, const std::fu
 /// @param target m @return n integers, for the B that was reduced
 /// @throw SolverError the target is not finite @throw SolverError the integers are beyond 2^53
 IntegerVector nearest_plane(const ReducedBasis& reduced, const Eigen::VectorXd& target);
+
+/// Returns a basis of {z in Z^n : A z = 0}, n x k, by exchanges and differences of columns (Euclid's algorithm in each
+/// row).
+/// Cost: O(m n^2) for small entries. It suits only these: entries may grow on the way.
+IntegerMatrix integer_kernel(IntegerMatrix A);
 
 }  // namespace holomorph::lattice

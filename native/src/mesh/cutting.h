@@ -4,11 +4,36 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "mesh/cut_records.h"
+#include "mesh/corner_labels.h"
+#include "mesh/input_filter.h"
+#include "mesh/polygons.h"
+#include "mesh/stitching.h"
 #include "mesh/surface.h"
-#include "mesh/usable_faces.h"
 
 namespace holomorph::mesh {
+
+/// Why a mesh was cut.
+enum class CutReason {
+  kManyFaces,  ///< edges with three or more faces
+  kTwice,      ///< faces on the vertices of an earlier one
+  kOpposite,   ///< those that run the other way round
+  kOneSided,   ///< edges at which no orientation of their faces fits
+  kRepeated,   ///< faces that meet a vertex more than once
+  kTouching,   ///< vertices at which fans of faces touch
+};
+
+/// All cuts for one reason, by elements of the mesh as given; each list ascending.
+struct Cut {
+  CutReason reason{};
+  std::vector<int> vertices;  ///< for kTouching
+  std::vector<Pair> edges;    ///< for kManyFaces and kOneSided: their ends, lower vertex first
+  std::vector<int> faces;     ///< for the other reasons
+};
+
+/// Lists the cuts that labels and joins of the part's corners make.
+/// @param corner_vertices #C the vertices of the surface
+std::vector<Cut> cuts(const PolygonPart& part, const CornerLabels& labels, const SideJoins& joins,
+                      const std::vector<int>& corner_vertices);
 
 /// A mesh cut along edges and at vertices: polygons and their corners are those given, in their order.
 struct CutSurface {

@@ -1,22 +1,16 @@
 // The links of half-edges: the next one, the vertex at the head and the face on the left.
 //
-// The handles and the names are those of OpenMesh's connectivity kernel. The arrays are our own. OpenMesh fills its
-// arrays element by element, copies them where they could be moved, and finds edges by their ends.
+// The names are those of OpenMesh's connectivity kernel. OpenMesh fills its arrays element by element, copies them
+// where they could be moved, and finds edges by their ends.
 #pragma once
 
-#include <OpenMesh/Core/Mesh/Handles.hh>
 #include <atomic>
 
 #include "base/page_allocator.h"
-#include "base/prefetch.h"
 #include "base/workers.h"
+#include "mesh/handles.h"
 
 namespace holomorph::mesh {
-
-using OpenMesh::EdgeHandle;
-using OpenMesh::FaceHandle;
-using OpenMesh::HalfedgeHandle;
-using OpenMesh::VertexHandle;
 
 /// Half-edge 2e runs along edge e from its lower to its higher vertex, 2e+1 back. After a flip 2e remains the
 /// direction of values on e. Triangle t's first half-edge is its side 0. One without a face runs along the boundary,

@@ -9,7 +9,6 @@
 #include "base/errors.h"
 #include "mesh/half_edges.h"
 #include "mesh/orientation.h"
-#include "mesh/surface_records.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/execution.h"
-#include "mesh/element_labels.h"
+#include "mesh/polygons.h"
 #include "mesh/surface.h"
 
 namespace holomorph::mesh {

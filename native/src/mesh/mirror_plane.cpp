@@ -1,11 +1,12 @@
 #include "mesh/mirror_plane.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "linear/dense.h"
 
 namespace holomorph::mesh {
 namespace {
@@ -67,7 +68,7 @@ std::optional<MirrorPlane> mirror_plane(const Surface& surface, const TriangleTr
   Eigen::Matrix<double, 3, 6> axes;
   // A plane of symmetry goes through the centroid, across an axis of inertia. On a round shape those are arbitrary: the
   // axes of space are tried first.
-  axes << Matrix3d::Identity(), Eigen::SelfAdjointEigenSolver<Matrix3d>(spread).eigenvectors();
+  axes << Matrix3d::Identity(), linear::eigenvectors(spread);
   std::optional<MirrorPlane> best;
   double least = INFINITY;
   for (const auto& axis : axes.colwise()) {

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "base/execution.h"
+#include "mesh/polygons.h"
 #include "mesh/surface.h"
 
 namespace holomorph::mesh {
@@ -27,5 +29,12 @@ Orientation orient(int face_count, const std::vector<EdgeMeeting>& meetings);
 /// share a vertex belong to one component.
 /// @param edges #E ends, lower first
 Orientation oriented_as_given(const Polygons& polygons, const Array<Pair>& edges);
+
+/// Records components and reversed faces. @throws TopologyError naming the edge at which no orientation fits
+void record_orientation(Surface& surface, const Orientation& orientation, const MeshLabels& label = {});
+
+/// Records isolated vertices and faces without area. Refuses non-manifold vertices and a surface without area.
+/// @throws InvalidMesh
+void finish_records(Surface& surface, Execution& execution, const MeshLabels& label = {});
 
 }  // namespace holomorph::mesh

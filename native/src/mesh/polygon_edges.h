@@ -1,10 +1,11 @@
-// The edges of a polygon mesh, found from pairs of vertices.
+// The edges of polygons, and the sides of polygons at them.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "base/workers.h"
-#include "mesh/element_labels.h"
+#include "mesh/polygons.h"
 #include "mesh/surface.h"
 
 namespace holomorph::mesh {
@@ -27,5 +28,23 @@ std::vector<int> boundary_loop_of_vertex(const PolygonEdges& edges, int vertex_c
 
 /// The polygon of each corner.
 std::vector<int> corner_faces(const Polygons& polygons);
+
+/// #C the corner after each one in its polygon: side c runs from corner c to it.
+std::vector<int> next_corners(const Polygons& polygons);
+
+struct LabelledSide {
+  int lower, higher, corner;  ///< its labels, and where it starts
+};
+
+/// Calls each(begin, end) for the sides between the same two labels, by labels; a group by corners.
+/// Cost: O(#C log #C).
+void for_edges(const Polygons& polygons, const std::vector<int>& label,
+               const std::function<void(const LabelledSide*, const LabelledSide*)>& each);
+
+/// An edge with more faces than this is cut from all of them: its pairs would take the square of their number.
+inline constexpr int kMostFacesAtEdge = 64;
+
+/// The sides of each edge that has more than kMostFacesAtEdge.
+std::vector<std::vector<int>> crowded_edges(const Polygons& polygons, const std::vector<int>& label);
 
 }  // namespace holomorph::mesh

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "mesh/joined_sets.h"
 #include "mesh/triangle_geometry.h"
+#include "mesh/union_find.h"
 
 namespace holomorph::mesh {
 namespace {

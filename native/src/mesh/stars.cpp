@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/errors.h"
-#include "mesh/element_labels.h"
+#include "mesh/polygons.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {

@@ -28,7 +28,8 @@ struct Star {
 std::vector<Star> stars(const HalfEdges& half_edges, std::span<const double> lengths, const std::vector<int>& vertices,
                         const std::vector<int>& labels = {});
 
-/// Returns one star, whatever it meets. @throws TopologyError if the vertex has no face, or lies on the boundary
+/// Returns the star of one vertex without checking for overlaps. @throws TopologyError if the vertex has no face, or
+/// lies on the boundary
 Star star(const HalfEdges& half_edges, std::span<const double> lengths, int vertex,
           const std::vector<int>& labels = {});
 

@@ -1,11 +1,11 @@
 #include "moduli/continuation.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <numeric>
 
 #include "base/chunks.h"
+#include "linear/dense.h"
 
 namespace holomorph::moduli {
 namespace {
@@ -126,7 +126,8 @@ void Continuation::follow(mesh::SurfacePoint& point, Eigen::Ref<VectorXd> residu
     const auto across = slope(point.triangle);
     // Gauss-Newton: the step in the plane of the triangle that reduces the residual most, in the sense of least
     // squares.
-    const Vector2d step = (across.transpose() * across).ldlt().solve(across.transpose() * residual);
+    const Vector2d step =
+        linear::solve_symmetric(Eigen::Matrix2d(across.transpose() * across), Vector2d(across.transpose() * residual));
     for (const auto& [triangle, dz] : mesh::walk(to_.surface, to_links_, to_sides_, point, {step[0], step[1]}))
       residual -= slope(triangle) * Vector2d(dz.real(), dz.imag());
     const double now = residual.norm();

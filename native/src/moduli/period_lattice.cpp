@@ -1,27 +1,29 @@
 #include "moduli/period_lattice.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "base/errors.h"
 #include "conformal/projection.h"
-#include "moduli/quadratic_forms.h"
+#include "linear/dense.h"
 
 namespace holomorph::moduli {
+
+using Eigen::MatrixXd;
+
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 
 constexpr double kLargestInteger = 9007199254740992;  // 2^53
 
 // Exact: the entries of a unimodular inverse are integers, and the product is checked.
 IntegerMatrix unimodular_inverse(const IntegerMatrix& A) {
-  const MatrixXd inverse = A.cast<double>().inverse();
+  const MatrixXd inverse = linear::inverse(MatrixXd(A.cast<double>()));
   if (!(inverse.cwiseAbs().maxCoeff() < kLargestInteger)) throw Error("the lattice needs integers beyond 2^53");
   const IntegerMatrix rounded = inverse.array().round().matrix().cast<std::int64_t>();
   if (checked_product(A, rounded) != IntegerMatrix::Identity(A.rows(), A.cols()))
@@ -36,6 +38,17 @@ MatrixXd in_basis(const IntegerMatrix& basis, const MatrixXd& form) {
 
 }  // namespace
 
+LogRatios log_ratios(const MatrixXd& A, const MatrixXd& B) {
+  const linear::Cholesky root(B);
+  if (!root.succeeded())
+    throw SolverError("the energies of " + std::to_string(B.rows()) + " classes are not positive definite");
+  // The eigenvalues of L^-1 A L^-T, B = L L^T, are the stationary values of x A x / x B x.
+  const MatrixXd both = root.solve_lower(root.solve_lower(A).transpose());
+  const Eigen::VectorXd values = linear::eigenvalues((both + both.transpose()) / 2);
+  const auto log = [](double x) { return x > 0 ? std::log(x) : -std::numeric_limits<double>::infinity(); };
+  return {log(values.minCoeff()), log(values.maxCoeff())};
+}
+
 IntegerMatrix checked_product(const IntegerMatrix& A, const IntegerMatrix& B) {
   const MatrixXd most = A.cast<double>().cwiseAbs() * B.cast<double>().cwiseAbs();
   if (most.size() > 0 && !(most.maxCoeff() < kLargestInteger)) throw Error("the lattice needs integers beyond 2^53");
@@ -44,7 +57,7 @@ IntegerMatrix checked_product(const IntegerMatrix& A, const IntegerMatrix& B) {
 
 IntegerMatrix short_basis(const MatrixXd& form) {
   // U^T U is the form, so that the columns of U span a lattice with these lengths and angles.
-  const MatrixXd root = form.llt().matrixU();
+  const MatrixXd root = linear::Cholesky(form).upper();
   const auto reduced = lattice::reduce(root);
   const Eigen::VectorXd length = reduced.basis.colwise().norm();
   std::vector<Index> order(length.size());

@@ -5,11 +5,10 @@
 #include <string>
 
 #include "base/errors.h"
-#include "forms/codifferential.h"
+#include "forms/closed_forms.h"
 #include "forms/refined_solver.h"
-#include "mesh/boundary_loops.h"
 #include "mesh/components.h"
-#include "mesh/discretisation.h"
+#include "mesh/delaunay.h"
 
 namespace holomorph::multiresolution {
 namespace {

@@ -19,7 +19,9 @@
 #include "multiresolution/paper_levels.h"
 #include "solver/conjugate_gradients.h"
 #include "solver/laplace_solver.h"
+#include "structure/options.h"
 #include "structure/solver_report.h"
+#include "structure/structure.h"
 
 namespace holomorph::multiresolution {
 
@@ -82,5 +84,14 @@ class PaperSolver final : public solver::LaplaceSolver {
   std::unique_ptr<solver::LaplaceSolver> direct_;
   std::string remark_;
 };
+
+/// Computes a conformal structure. Loops are lifted from the base mesh, classes are pulled back, and harmonic forms
+/// come from paper_forms. No edge is flipped: all results belong to the surface's own triangulation.
+/// @param levels of a given progressive mesh; by default it is made here
+/// @pre connected, no isolated vertices
+/// @throws TopologyError for a sphere or a disk; InvalidMesh for an intrinsic surface; SolverError; Cancelled
+structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
+                                     Execution& execution, PaperOptions how = {},
+                                     std::optional<PaperLevels> levels = {});
 
 }  // namespace holomorph::multiresolution

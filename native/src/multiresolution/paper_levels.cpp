@@ -2,17 +2,94 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "base/errors.h"
+#include "mesh/half_edges.h"
 #include "mesh/triangle_geometry.h"
-#include "multiresolution/polygon_paths.h"
 #include "progressive/simplify.h"
-#include "progressive/single_edges.h"
+#include "topology/integer_forms.h"
 
 namespace holomorph::multiresolution {
 namespace {
 
+using mesh::HalfedgeHandle;
+using mesh::Surface;
 using progressive::ProgressiveMesh;
+
+// Classes and loops of a triangulation whose diagonals were flipped for a progressive mesh, on the input triangulation.
+
+// #E the polygon of each diagonal that was flipped, -1 for all other edges.
+std::vector<int> flipped_polygons(const Surface& surface, const Surface& flipped) {
+  std::vector<int> polygon(surface.edges.size(), -1);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (const int e : surface.triangle_edges[t]) {
+      if (surface.edges[e] != flipped.edges[e]) polygon[e] = surface.triangle_faces[t];
+    }
+  }
+  return polygon;
+}
+
+// The half-edge from a to b. @pre there is one
+HalfedgeHandle half_edge(const mesh::HalfEdges& half_edges, int a, int b) {
+  HalfedgeHandle h = half_edges.halfedge_handle(mesh::VertexHandle(a));
+  while (mesh::to_vertex(half_edges, h) != b) h = mesh::next(half_edges, mesh::opposite(h));
+  return h;
+}
+
+// Vertices of a polygon from a to b, both included.
+std::vector<int> path_along(const Surface& surface, int face, int a, int b) {
+  const auto& [vertices, corners, offsets, file] = surface.polygons;
+  const auto begin = corners.begin() + offsets[face], end = corners.begin() + offsets[face + 1];
+  std::vector<int> path;
+  for (auto c = std::find(begin, end, a); path.empty() || path.back() != b; c = c + 1 == end ? begin : c + 1) {
+    path.push_back(static_cast<int>(*c));
+  }
+  return path;
+}
+
+// Computes the values of closed forms on the diagonals that were flipped: sums along the polygon from one end to the
+// other.
+// @param flipped the surface with other diagonals (progressive::with_single_edges), edges numbered alike
+// @param forms on the edges of `flipped`; changed to those on the edges of `surface`
+void values_of_diagonals(const Surface& surface, const Surface& flipped, topology::IntegerForms& forms) {
+  const std::vector<int> polygon = flipped_polygons(surface, flipped);
+  // Edges of polygons come first, in lexicographic order.
+  const auto polygon_edges = std::span(surface.edges).first(static_cast<std::size_t>(surface.polygon_edge_count));
+  for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+    if (polygon[e] < 0) continue;
+    const auto path = path_along(surface, polygon[e], surface.edges[e][0], surface.edges[e][1]);
+    // By closedness: the polygon is a disk, so both ways around give the same sum.
+    topology::IntegerForms::Row sum;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      sum = topology::add(sum, forms.rows[mesh::edge_between(polygon_edges, path[i], path[i + 1])],
+                          path[i] < path[i + 1] ? 1 : -1);
+    }
+    forms.rows.set(e, std::move(sum));
+  }
+}
+
+// Converts closed loops of vertices along the edges of `flipped` to loops of half-edges of `surface`. A step along an
+// edge that `surface` does not have becomes a path along the polygon, which is homotopic.
+std::vector<std::vector<HalfedgeHandle>> loops_of_half_edges(const Surface& surface, const Surface& flipped,
+                                                             const std::vector<std::vector<int>>& loops,
+                                                             Execution& execution) {
+  const std::vector<int> polygon = flipped_polygons(surface, flipped);
+  const mesh::HalfEdges half_edges = mesh::half_edges(flipped, execution);
+  std::vector<std::vector<HalfedgeHandle>> result;
+  for (const auto& loop : loops) {
+    result.emplace_back();
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const int a = loop[i], b = loop[(i + 1) % loop.size()];
+      const HalfedgeHandle h = half_edge(half_edges, a, b);
+      const int face = polygon[mesh::edge_of(h)];
+      const std::vector<int> path = face < 0 ? std::vector<int>{a, b} : path_along(surface, face, a, b);
+      for (std::size_t k = 0; k + 1 < path.size(); ++k)
+        result.back().push_back(half_edge(half_edges, path[k], path[k + 1]));
+    }
+  }
+  return result;
+}
 
 // Least area of a triangle of a level over the sum of its squared sides, which is 0.144 for an equilateral one. All its
 // cotangents shrink by one factor, so that the matrix remains positive semi-definite.

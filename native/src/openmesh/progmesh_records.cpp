@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "progressive/checks.h"
+#include "progressive/file_format.h"
 
 namespace holomorph::openmesh {
 namespace {

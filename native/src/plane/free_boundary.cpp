@@ -1,6 +1,5 @@
 #include "plane/free_boundary.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -10,10 +9,9 @@
 #include "base/errors.h"
 #include "base/finite.h"
 #include "forms/harmonic_residuals.h"
-#include "mesh/boundary_loops.h"
+#include "linear/dense.h"
 #include "mesh/components.h"
 #include "mesh/delaunay.h"
-#include "mesh/discretisation.h"
 #include "plane/dirichlet_problem.h"
 
 namespace holomorph::plane {
@@ -60,7 +58,7 @@ std::vector<std::complex<double>> closed_curve(const std::vector<double>& length
     gap += lengths[j] * vector(j);
   }
   // By Lagrange: l* = l (1 - m . t) with M m = gap, so that sum l* t = gap - M m = 0.
-  const Eigen::Vector2d multiplier = M.ldlt().solve(gap);
+  const Eigen::Vector2d multiplier = linear::solve_symmetric(M, gap);
   std::vector<std::complex<double>> points{0};
   for (std::size_t j = 0; j + 1 < lengths.size(); ++j)
     points.push_back(points.back() + lengths[j] * (1 - multiplier.dot(vector(j))) * tangents[j]);

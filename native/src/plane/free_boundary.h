@@ -3,7 +3,7 @@
 
 #include "base/execution.h"
 #include "mesh/surface.h"
-#include "plane/plane_map.h"
+#include "plane/dirichlet_problem.h"
 
 namespace holomorph::plane {
 

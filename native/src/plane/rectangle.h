@@ -1,11 +1,11 @@
-// The conformal map of a disk with four corners to a rectangle, and its modulus with bounds.
+// Maps to rectangles, and of a disk with three corners to a triangle.
 #pragma once
 
 #include <vector>
 
 #include "base/execution.h"
 #include "mesh/surface.h"
-#include "plane/plane_map.h"
+#include "plane/dirichlet_problem.h"
 
 namespace holomorph::plane {
 
@@ -25,5 +25,12 @@ namespace holomorph::plane {
 /// Cost: four solves, of four matrices; two where no edge is flipped.
 PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& corners, const std::vector<int>& labels,
                        const Options& options, Execution& execution);
+
+/// Computes the harmonic map to the triangle with the lengths of the three boundary edges, scaled so that its longest
+/// side is 1. It is counter-clockwise, with the lowest boundary vertex at 0 and the next one on the real axis. A single
+/// triangle is mapped to itself.
+/// @pre a disk
+/// @throws TopologyError for a boundary of more than three edges; SolverError; Cancelled
+PlaneMap triangle_map(const mesh::Surface& surface, const Options& options, Execution& execution);
 
 }  // namespace holomorph::plane

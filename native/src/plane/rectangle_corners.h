@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "base/execution.h"
-#include "mesh/boundary_loops.h"
+#include "mesh/components.h"
+#include "mesh/surface.h"
 
 namespace holomorph::plane {
 
@@ -31,5 +33,19 @@ int boundary_length(const mesh::Surface& surface, Execution& execution);
 /// from the lowest vertex on.
 /// @throws TopologyError for a boundary of three edges
 std::vector<int> quarter_corners(const mesh::Surface& surface, Execution& execution);
+
+/// Finds the four corners of a disk, or nothing where they are not clear. They follow the boundary, the surface on its
+/// left, from the lowest vertex on.
+///
+/// They are clear where the boundary turns by more than 45 degrees at exactly four places, and back at none. The turn
+/// at a vertex is its exterior angle. Where these are rough or the corners round, directions are averaged over a part
+/// of the boundary's length. The turn at a place is then the mean direction after it less the mean direction before it.
+/// Parts from 1/256 to 1/16 are tried, and the first that shows four corners is taken. Each corner has to turn by 60
+/// degrees in that case. On terrain, heights make exterior angles meaningless. There the boundary's projection to its
+/// least-squares plane is searched in the same way, and the surface itself has to turn at the corners, too. (The rim of
+/// a tray is a rectangle, but a conformal map of the tray has no corners there.)
+///
+/// No length scale enters: 512-gons, stadiums, hexagons and L shapes have none.
+std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface, Execution& execution);
 
 }  // namespace holomorph::plane

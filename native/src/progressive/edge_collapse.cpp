@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/prefetch.h"
+#include "base/page_allocator.h"
 
 namespace holomorph::progressive {
 namespace {

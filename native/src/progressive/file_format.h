@@ -1,15 +1,4 @@
-// A progressive mesh as one block of bytes, little-endian on every machine.
-//
-//   8 bytes   "HoloPM\r\n"
-//   u32       version, 1
-//   u32       1: triangles name their polygon corners, 2: polygons that are not triangles; or both
-//   u64 x 8   base triangles, base vertices, splits, vertices, triangles, polygons, bytes of the corner type, bytes of
-//             corner data
-//   i32       base triangles (3 each); splits: all v_s, all v_l, all v_r
-//   u8        splits: slot_l + 4 slot_r
-//   f64       positions (3 each)
-//   i32       vertex index, triangle index; triangle corners (3 each) if there are any; face offsets if there are any
-//   bytes     corner type, corner data
+// Progressive meshes as bytes, and the checks of what is read.
 #pragma once
 
 #include <string_view>
@@ -18,6 +7,14 @@
 #include "progressive/progressive_mesh.h"
 
 namespace holomorph::progressive {
+
+/// Makes the base from its triangles and the first positions. @throws InvalidMesh if it is not a valid mesh, has
+/// isolated vertices, or is not oriented consistently
+void set_base(ProgressiveMesh& mesh, const std::vector<Triple>& triangles, std::size_t vertex_count);
+
+/// Checks counts, permutations, corners and every split. If it returns, the levels and the original are valid meshes.
+/// @throws InvalidMesh naming what is wrong
+void check(const ProgressiveMesh& mesh);
 
 std::vector<char> to_bytes(const ProgressiveMesh& mesh);
 

@@ -1,4 +1,4 @@
-// From the base mesh to finer ones, vertex split by vertex split.
+// Replays splits: levels of a progressive mesh.
 #pragma once
 
 #include <vector>
@@ -45,5 +45,11 @@ class Refinement {
   std::vector<int> moved_;
   int made_ = 0;
 };
+
+/// Returns a level as polygons, in the numbering of the progressive mesh. @param splits from 0 to all
+mesh::Polygons level(const ProgressiveMesh& mesh, int splits);
+
+/// Returns the original polygons, bit for bit, rebuilt from the base by all the splits.
+mesh::Polygons restored(const ProgressiveMesh& mesh);
 
 }  // namespace holomorph::progressive

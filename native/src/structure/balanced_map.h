@@ -5,8 +5,8 @@
 
 #include "base/execution.h"
 #include "structure/options.h"
+#include "structure/primal_forms.h"
 #include "structure/structure.h"
-#include "structure/uv_forms.h"
 
 namespace holomorph::structure {
 

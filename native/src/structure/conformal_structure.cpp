@@ -4,7 +4,7 @@
 
 #include "base/background_task.h"
 #include "base/errors.h"
-#include "structure/guarantee.h"
+#include "structure/structure.h"
 
 namespace holomorph::structure {
 

@@ -1,19 +1,39 @@
 // The linear systems of harmonic forms on one discretisation: L f_j = -d* eta_j (paper § 6, Eq. 8).
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "base/execution.h"
+#include "forms/closed_forms.h"
 #include "forms/refined_solver.h"
-#include "mesh/discretisation.h"
-#include "structure/double_cover.h"
+#include "mesh/delaunay.h"
+#include "mesh/double_cover.h"
+#include "mesh/surface.h"
+#include "solver/laplace_solver.h"
 #include "structure/memory_plan.h"
 #include "structure/options.h"
 #include "structure/solver_report.h"
 
 namespace holomorph::structure {
+
+struct DoubledSurface {
+  mesh::DoubleCover cover;
+  Array<double> weights;  ///< #E of the double, those of the surface: edges of the boundary count twice
+};
+
+DoubledSurface doubled(const mesh::Discretisation& surface, Execution& execution);
+
+/// Extends classes to the double: the first `natural` ones symmetrically, the others antisymmetrically.
+topology::IntegerForms extended(const mesh::HalfEdges& half_edges, const mesh::DoubleCover& cover,
+                                const topology::IntegerForms& classes, int natural);
+
+/// Computes (f(v) + f(v*)) / 2 for the first `natural` functions, (f(v) - f(v*)) / 2 for the others, v* the dual vertex
+/// (Eq. 12): #V of the surface x #forms.
+forms::RowMajorMatrix symmetrised(const forms::RowMajorMatrix& functions, const mesh::DoubleCover& cover, int natural);
 
 /// Set up before the classes are known. With Boundary::double_cover every form is solved for on the closed double.
 /// Natural classes are extended symmetrically, Dirichlet classes antisymmetrically. The solutions are symmetrised (Eq.
@@ -60,5 +80,17 @@ class HarmonicSolver {
   std::unique_ptr<const DoubledSurface> double_;  // what is solved on instead
   forms::RefinedSolver systems_;
 };
+
+struct LaplaceProblem {
+  std::vector<std::array<int, 2>> ends;  ///< ends of the edges of the intrinsic Delaunay triangulation
+  Array<double> weights;                 ///< weights of these edges: (L x)_i = sum_j w_ij (x_i - x_j)
+  std::unique_ptr<solver::LaplaceSolver> solver;
+  int threads = 0;  ///< threads of the execution that made it
+};
+
+/// @param fixed vertices, at 0 for right-hand sides with the condition dirichlet
+/// @throws SolverError, Cancelled
+LaplaceProblem laplace_problem(const mesh::Surface& surface, const std::vector<int>& fixed, const Options& options,
+                               Execution& execution);
 
 }  // namespace holomorph::structure

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "mesh/boundary_loops.h"
+#include "mesh/components.h"
 #include "mesh/delaunay.h"
-#include "structure/guarantee.h"
+#include "structure/structure.h"
 #include "topology/integer_forms.h"
 
 namespace holomorph::structure {

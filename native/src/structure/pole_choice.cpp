@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/errors.h"
-#include "mesh/boundary_loops.h"
+#include "mesh/components.h"
 #include "mesh/graph_distances.h"
 #include "mesh/stars.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "structure/guarantee.h"
+#include "structure/structure.h"
 
 namespace holomorph::structure {
 namespace {

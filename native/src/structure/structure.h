@@ -9,11 +9,22 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "structure/harmonic_forms.h"
+#include "structure/certified_forms.h"
+#include "structure/harmonic_solver.h"
 #include "structure/pole_choice.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::structure {
+
+/// Solves for the harmonic forms of the topology's classes on the discretisation of `solver`, keeps or streams them as
+/// its plan says, and measures them.
+/// @pre the surface has handles or at least two boundary loops. @throws SolverError, Cancelled
+HarmonicForms harmonic_forms(const mesh::Surface& surface, const Topology& topology, HarmonicSolver& solver,
+                             Execution& execution);
+
+/// Solves for the functions alone, #V x #forms. Those of the loops' harmonic measures are 1 on their loops.
+/// @throws SolverError, Cancelled
+forms::RowMajorMatrix harmonic_functions(const Topology& topology, HarmonicSolver& solver, Execution& execution);
 
 /// What belongs to the poles of a differential of the third kind.
 struct PoleData {
@@ -66,5 +77,9 @@ Structure cut_along(Structure structure, std::vector<int> edges, const std::vect
 
 /// The edges between poles and their links, ascending.
 std::vector<int> spokes(const Structure& structure);
+
+/// Checks that invariants are finite, that the linear systems were solved to what is promised, and that bounds do not
+/// cross. @throws SolverError
+void require_guaranteed(const Structure& structure);
 
 }  // namespace holomorph::structure

@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "topology/fundamental_domain.h"
-#include "topology/pole_classes.h"
+#include "topology/homology.h"
 
 namespace holomorph::structure {
 namespace {

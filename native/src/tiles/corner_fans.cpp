@@ -1,6 +1,6 @@
 #include "tiles/corner_fans.h"
 
-#include "mesh/joined_sets.h"
+#include "mesh/union_find.h"
 
 namespace holomorph::tiles {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "tiles/orientation.h"
+#include "tiles/tile_coordinates.h"
 
 namespace holomorph::tiles {
 

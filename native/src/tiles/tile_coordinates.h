@@ -6,11 +6,28 @@
 #include <array>
 #include <vector>
 
+#include "base/double_double.h"
 #include "base/execution.h"
 #include "mesh/surface.h"
-#include "tiles/orientation.h"
 
 namespace holomorph::tiles {
+
+using Point = std::array<double, 2>;
+
+/// Largest coordinate. Differences of coordinates are exact, and products are exact in twice the precision.
+inline constexpr double kLargestCoordinate = 0x1p50;
+
+/// a d - b c, rounded, with the right sign and exactly 0 where it is. @pre integers up to 2 kLargestCoordinate
+inline double determinant(double a, double b, double c, double d) {
+  const DoubleDouble p = exact_product(a, d), q = exact_product(b, c);
+  // Where the first difference is rounded, it is more than the second; else the sum is one of integers.
+  return (p.high - q.high) + (p.low - q.low);
+}
+
+/// Twice the signed area of (a, b, x): positive where x lies on the left of the line from a to b.
+inline double orientation(const Point& a, const Point& b, const Point& x) {
+  return determinant(b[0] - a[0], b[1] - a[1], x[0] - a[0], x[1] - a[1]);
+}
 
 using Corners = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "base/last_made.h"
+#include "base/resource_pool.h"
 #include "structure/options.h"
 #include "tiling/inversion/jacobi_inversion.h"
-#include "tiling/maps/seamless_maps.h"
+#include "tiling/maps/assemble.h"
 #include "tiling/poles/meromorphic_form.h"
 #include "tiling/poles/mirror.h"
 
@@ -38,8 +38,7 @@ struct Placement {
   std::optional<Mirror> mirror;            ///< of the poles, where the form is its own mirror image
   std::shared_ptr<const JacobiInversion> inversion = nullptr;  ///< on a closed surface with handles, else null
   /// The maps of the last tiling, reused by the next one with the same poles.
-  std::shared_ptr<LastMade<std::vector<int>, SeamlessMaps>> maps =
-      std::make_shared<LastMade<std::vector<int>, SeamlessMaps>>();
+  std::shared_ptr<Memo<std::vector<int>, SeamlessMaps>> maps = std::make_shared<Memo<std::vector<int>, SeamlessMaps>>();
 };
 
 /// Places the poles, on a level of the progressive mesh where the surface is large (pole_placement.h).

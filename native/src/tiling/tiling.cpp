@@ -8,7 +8,6 @@
 #include "base/errors.h"
 #include "evening/evening.h"
 #include "tiling/rounding/rounding_problem.h"
-#include "tiling/rounding/symmetric_rounding.h"
 #include "uv/vector_fields.h"
 
 namespace holomorph::tiling {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "tiling/candidate.h"
+#include "tiling/rounding_candidate.h"
 
 namespace holomorph::tiling {
 

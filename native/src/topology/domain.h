@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/page_allocator.h"
-#include "mesh/boundary_loops.h"
+#include "mesh/components.h"
 #include "mesh/stars.h"
 
 namespace holomorph::topology {

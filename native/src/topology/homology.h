@@ -1,4 +1,4 @@
-// Homology basis (paper § 4.2), the cohomology basis dual to it (paper § 5) and a canonical basis, in exact integers.
+// Homology: bases of loops and of classes, with handles, boundary loops and poles.
 #pragma once
 
 #include <Eigen/Core>
@@ -44,5 +44,14 @@ IntegerMatrix pairing(const HalfEdges& half_edges, const IntegerForms& a, const 
 /// Computes W_ij = int eta_i ^ eta_j. It is an integer, because both are integer classes, and exact on any
 /// triangulation.
 IntegerMatrix wedge_matrix(const HalfEdges& half_edges, const IntegerForms& forms, Execution& execution);
+
+/// Counts the signed crossings of dual paths through D, each from the face of a star's link[0]. A class has the period
+/// +1 counter-clockwise around its star. It is closed on every face outside the stars, and 0 on all spokes and on all
+/// link edges but link[0]. A closed surface has one class for each star but the last, with the period -1 around the
+/// last, where the path ends. With boundary there is one for each star, and its path leaves through the gap of boundary
+/// loop 0.
+/// @param domain made with these stars
+IntegerForms pole_classes(const HalfEdges& half_edges, const FundamentalDomain& domain,
+                          const std::vector<mesh::Star>& stars);
 
 }  // namespace holomorph::topology

@@ -1,13 +1,13 @@
 #include "uv/balance.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <random>
 
-#include "base/watch.h"
+#include "base/task_progress.h"
+#include "linear/dense.h"
 #include "uv/vector_fields.h"
 
 namespace holomorph::uv {
@@ -47,8 +47,7 @@ MatrixXcd orthonormal(const MatrixXcd& M, Coefficients kind) {
   if (kind == Coefficients::real) gram = gram.real().cast<Complex>().eval();
   // Keeps the matrix definite where forms are dependent on the samples.
   gram += 1e-14 * gram.diagonal().real().maxCoeff() * MatrixXcd::Identity(n, n);
-  const Eigen::LLT<MatrixXcd> factor(gram);
-  return factor.matrixU().solve(MatrixXcd::Identity(n, n));
+  return linear::Cholesky(gram).inverse_upper();
 }
 
 // What a finished map is judged by, the less the better: the variance may be small and the map flipped.
@@ -109,7 +108,7 @@ VectorXcd lowest_variance(const mesh::Surface& surface, const std::vector<int>& 
   const MatrixXcd fields = surface.intrinsic() ? MatrixXcd() : even_fields(surface, triangles, count);
   std::vector<Candidate> candidates = starts(parts.M, fields, kind, count);
   // Descents are independent, so the result does not depend on the number of threads.
-  Watch watch(execution, kUsualValues);
+  TaskProgress watch(execution, kUsualValues);
   run_throwing(execution.workers(), static_cast<int>(candidates.size()), [&](int thread, int i) {
     descend(thinned, kind, candidates[i].x, kRoughFloors, kRoughSteps, [&] { watch(thread); });
     candidates[i].value = judgement(thinned, as_complex(candidates[i].x, kind));

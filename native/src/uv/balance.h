@@ -5,7 +5,7 @@
 
 #include "base/execution.h"
 #include "mesh/surface.h"
-#include "uv/log_variance.h"
+#include "uv/density_objective.h"
 
 namespace holomorph::uv {
 

@@ -92,7 +92,7 @@ class Distribution {
   const Array<double>& values_;
   const Array<double>& weights_;
   Workers& workers_;
-  const int parts_;  // that are gone through side by side
+  const int parts_;  // number of parts processed in parallel
   std::vector<double> classes_;
   double total_ = 0;
 };

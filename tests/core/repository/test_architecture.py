@@ -15,12 +15,13 @@ IN_BLENDER = FACADE / "batch" / "in_blender.py"
 # Each room of native/src, and the rooms that it may include directly or through them.
 ROOM_BELOW = {
     "base": [],
+    "linear": [],
     "lattice": ["base"],
-    "mesh": ["base"],
+    "mesh": ["base", "linear"],
     "tiles": ["mesh"],
     "progressive": ["mesh"],
     "openmesh": ["progressive"],
-    "solver": ["base"],
+    "solver": ["base", "linear"],
     "topology": ["progressive"],
     "forms": ["topology", "solver"],
     "conformal": ["forms"],

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "base/errors.h"
-#include "base/last_made.h"
-#include "base/lender.h"
+#include "base/resource_pool.h"
 
 namespace holomorph {
 namespace {
@@ -24,11 +23,11 @@ struct Counted {
   int users = 0;
 };
 
-TEST(Lender, LendsTheSameOneAgainAndAnotherWhileItIsLent) {
+TEST(ResourcePool, LendsTheSameOneAgainAndAnotherWhileItIsLent) {
   std::atomic<int> alive = 0, made = 0;
   Execution execution(1);
   {
-    const Lender<Counted> lender([&](Execution&) {
+    const ResourcePool<Counted> lender([&](Execution&) {
       ++made;
       return std::make_unique<Counted>(alive);
     });
@@ -46,10 +45,10 @@ TEST(Lender, LendsTheSameOneAgainAndAnotherWhileItIsLent) {
   EXPECT_EQ(alive, 0);
 }
 
-TEST(Lender, KeepsNothingThatCouldNotBeMade) {
+TEST(ResourcePool, KeepsNothingThatCouldNotBeMade) {
   int tries = 0;
   Execution execution(1);
-  const Lender<int> lender([&](Execution&) -> std::unique_ptr<int> {
+  const ResourcePool<int> lender([&](Execution&) -> std::unique_ptr<int> {
     if (++tries == 1) throw Cancelled("stopped");
     return std::make_unique<int>(tries);
   });
@@ -57,9 +56,9 @@ TEST(Lender, KeepsNothingThatCouldNotBeMade) {
   EXPECT_EQ(*lender.borrow(execution), 2);
 }
 
-TEST(Lender, HasOneUserAtATime) {
+TEST(ResourcePool, HasOneUserAtATime) {
   std::atomic<int> alive = 0, shared = 0;
-  const Lender<Counted> lender([&](Execution&) { return std::make_unique<Counted>(alive); });
+  const ResourcePool<Counted> lender([&](Execution&) { return std::make_unique<Counted>(alive); });
   std::vector<std::thread> threads;
   for (int i = 0; i < 4; ++i) {
     threads.emplace_back([&] {
@@ -76,8 +75,8 @@ TEST(Lender, HasOneUserAtATime) {
   EXPECT_EQ(alive, 1);
 }
 
-TEST(LastMade, MakesAnotherForAnotherKeyAlone) {
-  LastMade<int, int> last;
+TEST(Memo, MakesAnotherForAnotherKeyAlone) {
+  Memo<int, int> last;
   int made = 0;
   const auto squared = [&](int key) {
     return last.get(key, [&] {
@@ -94,8 +93,8 @@ TEST(LastMade, MakesAnotherForAnotherKeyAlone) {
   EXPECT_EQ(made, 3);
 }
 
-TEST(LastMade, IsAskedWhileItMakes) {
-  LastMade<int, int> last;
+TEST(Memo, IsAskedWhileItMakes) {
+  Memo<int, int> last;
   const auto outer =
       last.get(1, [&] { return std::make_shared<int>(10 * *last.get(1, [] { return std::make_shared<int>(7); })); });
   EXPECT_EQ(*outer, 70);

@@ -1,4 +1,3 @@
-#include "lattice/integer_kernel.h"
 #include "lattice/reduction.h"
 
 #include <gtest/gtest.h>

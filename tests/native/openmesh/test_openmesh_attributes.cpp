@@ -10,7 +10,7 @@
 
 #include "open_meshes.h"
 #include "structure/balanced_map.h"
-#include "uv/placement.h"
+#include "uv/uv_map.h"
 
 namespace holomorph::openmesh {
 namespace {

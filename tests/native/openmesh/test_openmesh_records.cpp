@@ -7,7 +7,7 @@
 
 #include "open_meshes.h"
 #include "openmesh/progmesh_records.h"
-#include "progressive/levels.h"
+#include "progressive/refinement.h"
 #include "progressive/simplify.h"
 
 namespace holomorph::openmesh {

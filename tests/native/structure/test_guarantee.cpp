@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "base/errors.h"
-#include "structure/guarantee.h"
+#include "structure/structure.h"
 
 namespace holomorph::structure {
 namespace {

@@ -11,11 +11,10 @@
 #include "mesh/surface_walk.h"
 #include "structure/pole_structure.h"
 #include "tiling/greens/greens_functions.h"
-#include "tiling/greens/jacobian.h"
 #include "tiling/inversion/abel_jacobi.h"
-#include "tiling/maps/seamless_maps.h"
+#include "tiling/maps/assemble.h"
+#include "tiling/poles/ambient_occlusion.h"
 #include "tiling/poles/candidate_scores.h"
-#include "tiling/poles/exposure.h"
 #include "tiling/poles/meromorphic_form.h"
 #include "tiling/rounding/rounding.h"
 

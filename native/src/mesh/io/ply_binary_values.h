@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/errors.h"
-#include "mesh/io/byte_order.h"
 #include "mesh/io/ply_header.h"
 #include "mesh/io/scanner.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/io/file_text.h"
+#include "mesh/io/scanner.h"
 
 namespace holomorph::mesh::ply {
 

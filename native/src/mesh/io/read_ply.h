@@ -1,7 +1,7 @@
 // PLY, text and binary of both byte orders.
 #pragma once
 
-#include "mesh/io/file_text.h"
+#include "mesh/io/scanner.h"
 
 namespace holomorph::mesh {
 

@@ -6,12 +6,10 @@
 #include <numeric>
 #include <string>
 
-#include "mesh/io/byte_order.h"
 #include "mesh/io/scanner.h"
 #include "mesh/io/weld.h"
 
 namespace holomorph::mesh {
-
 namespace {
 
 using Point = std::array<double, 3>;

@@ -1,7 +1,7 @@
 // STL, text and binary; corners with equal coordinates are welded.
 #pragma once
 
-#include "mesh/io/file_text.h"
+#include "mesh/io/scanner.h"
 
 namespace holomorph::mesh {
 

@@ -1,13 +1,48 @@
-// Words and numbers of a text file, line by line, for all text formats.
+// Reads the text, the numbers and the bytes of a file.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 
-#include "mesh/io/file_text.h"
+#include "mesh/polygons.h"
 
 namespace holomorph::mesh {
+
+/// What a reader notes of a file whose vertices have colours.
+inline constexpr std::string_view kColours = "the colours of its vertices are not read";
+
+/// What a reader of PLY or OFF notes of a file with UVs.
+inline constexpr std::string_view kUvs = "its UVs are not read";
+
+/// A file in memory and the name that errors call it by.
+struct FileText {
+  std::string name;
+  std::string bytes;
+
+  /// The bytes of a text: without a byte order mark before it, and without zero bytes and Ctrl-Z after it.
+  std::string_view text() const;
+
+  /// @throws InvalidMesh where the text is in UTF-16, which has no format's words
+  void check_encoding() const;
+
+  /// @throws InvalidMesh "name: reason"
+  [[noreturn]] void fail(std::string_view reason) const;
+};
+
+/// The number stored at `bytes`, aligned or not.
+template <class Number>
+Number load_as(const char* bytes, std::endian order) {
+  std::array<char, sizeof(Number)> copy;
+  std::memcpy(copy.data(), bytes, sizeof(Number));
+  if (order != std::endian::native) std::reverse(copy.begin(), copy.end());
+  return std::bit_cast<Number>(copy);
+}
 
 enum class Comments { none, after_hash };
 

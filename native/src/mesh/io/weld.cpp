@@ -4,7 +4,6 @@
 #include <bit>
 
 namespace holomorph::mesh {
-
 namespace {
 
 using Point = std::array<double, 3>;

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "base/prefetch.h"
+#include "base/page_allocator.h"
 #include "solver/multigrid/sparse_rows.h"
 
 namespace holomorph::solver {

@@ -6,11 +6,35 @@
 // parent's alone, and coarse operators are P^T A P.
 #pragma once
 
-#include "solver/laplacian.h"
-#include "solver/multigrid/coarsest_level.h"
+#include <Eigen/Core>
+
+#include "solver/laplace_solver.h"
+#include "solver/multigrid/coarsening.h"
 #include "solver/multigrid/wavefront.h"
 
 namespace holomorph::solver {
+
+struct CoarsestInverse {
+  Eigen::MatrixXf natural;    ///< pseudo-inverse of A
+  Eigen::MatrixXf dirichlet;  ///< inverse of the part of A without the fixed vertices, 0 at these; empty without any
+};
+
+/// Both symmetric, computed in double precision. Cost: cubic in the size of A, which is a few hundred.
+/// @throws SolverError if A is not positive semi-definite
+CoarsestInverse coarsest_inverse(const Operator& coarsest);
+
+/// Takes over the weights of L, without those that are only rounding.
+/// @param fixed one flag per vertex, or empty for none
+/// @throws std::bad_alloc, Cancelled
+Operator finest_operator(const Laplacian& L, Array<char> fixed, Execution& execution);
+
+/// Computes P^T A P, summed in double precision. It is kept as differences, since its rows sum to 0. A coarse vertex is
+/// fixed where its C-point is.
+/// @param P interpolation() @param R its transpose
+/// @throws std::bad_alloc, Cancelled
+/// Cost: linear, in parallel.
+Operator coarse_operator(const Operator& fine, const Coarsening& coarse, const EqualRows& P, const SparseRows& R,
+                         Execution& execution);
 
 struct Level {
   Operator op;

@@ -6,11 +6,10 @@
 #include "base/errors.h"
 #include "mesh/make_surface.h"
 #include "mesh/spatial_order.h"
-#include "progressive/levels.h"
+#include "progressive/refinement.h"
 #include "progressive/simplify.h"
 
 namespace holomorph::tiling {
-
 namespace {
 
 CoarseLevel the_surface_itself(const std::shared_ptr<const mesh::Surface>& surface) {

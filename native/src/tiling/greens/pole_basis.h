@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
-#include "base/lender.h"
+#include "base/resource_pool.h"
 #include "structure/harmonic_solver.h"
 #include "structure/options.h"
 #include "structure/structure.h"
 #include "tiling/greens/coarse_level.h"
 #include "tiling/notation.h"
-#include "uv/log_variance.h"
+#include "uv/density_objective.h"
 
 namespace holomorph::tiling {
 
@@ -22,7 +22,7 @@ inline constexpr int kGreensBlock = 32;
 /// Everything belongs to the surface's own triangles. Immutable: several threads may use one.
 class PoleBasis {
  public:
-  using Solver = Lender<structure::HarmonicSolver>;
+  using Solver = ResourcePool<structure::HarmonicSolver>;
 
   /// @pre connected, no isolated vertices. @throws SolverError, Cancelled
   PoleBasis(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options, Execution& execution);

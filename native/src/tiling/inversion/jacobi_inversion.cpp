@@ -1,11 +1,11 @@
 #include "tiling/inversion/jacobi_inversion.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
 
+#include "linear/dense.h"
 #include "mesh/surface_walk.h"
 #include "tiling/inversion/neighbourhoods.h"
 
@@ -114,7 +114,7 @@ class Moving {
       residual << e.real(), e.imag();
       MatrixXd JJ = J * J.transpose();
       JJ.diagonal().array() += kDamping * JJ.trace() / static_cast<double>(2 * g);
-      const VectorXd dz = -J.transpose() * JJ.ldlt().solve(residual);
+      const VectorXd dz = -J.transpose() * linear::solve_symmetric(JJ, residual);
       double longest = 0;
       for (Index f = 0; f < dz.size(); f += 2) longest = std::max(longest, std::hypot(dz[f], dz[f + 1]));
       if (longest < kShortest * root) return;

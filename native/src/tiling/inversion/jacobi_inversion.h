@@ -4,7 +4,6 @@
 #include <functional>
 #include <vector>
 
-#include "tiling/greens/jacobian.h"
 #include "tiling/inversion/abel_jacobi.h"
 
 namespace holomorph::tiling {

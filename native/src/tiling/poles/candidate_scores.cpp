@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "tiling/poles/orbits.h"
+#include "tiling/poles/mirror.h"
 
 namespace holomorph::tiling {
 namespace {

@@ -1,9 +1,10 @@
 #include "tiling/poles/meromorphic_form.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "linear/dense.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -73,8 +74,8 @@ VectorXcd fitted_coefficients(const VectorXcd& wanted, const MatrixXcd& wanted_f
   }
   const MatrixXcd gram = rows.adjoint() * rows;
   const VectorXcd moments = rows.adjoint() * right;
-  if (real) return gram.real().ldlt().solve(moments.real()).cast<Complex>();
-  return gram.ldlt().solve(moments);
+  if (real) return linear::solve_symmetric(MatrixXd(gram.real()), VectorXd(moments.real())).cast<Complex>();
+  return linear::solve_symmetric(gram, moments);
 }
 
 }  // namespace holomorph::tiling

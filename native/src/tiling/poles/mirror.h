@@ -7,6 +7,7 @@
 
 #include "mesh/mirror_plane.h"
 #include "tiling/greens/pole_basis.h"
+#include "tiling/poles/meromorphic_form.h"
 
 namespace holomorph::tiling {
 
@@ -35,5 +36,20 @@ Mirror mirror_of_poles(const Mirror& on_level, const std::vector<int>& level_pol
 /// Number of poles in the orbit that begins at index i: 2 for the first of a pair, 0 for the second, 1 for a single
 /// pole. @param mirror null: all are alone
 Index orbit_size(const std::vector<int>& poles, Index i, const Mirror* mirror);
+
+/// Returns the vertices and their images. @param mirror null: every pole is an orbit, here and below
+std::vector<int> with_images(std::vector<int> vertices, const Mirror* mirror);
+
+/// Returns a real basis, #poles x n, of the residues that are their own mirror image and sum to 0.
+MatrixXcd symmetric_residues(const std::vector<int>& poles, const Mirror& mirror);
+
+/// Moves the first orbit to the end of the lists. @return its size
+Index first_to_last(MeromorphicForm& form, const Mirror* mirror);
+
+/// Removes the last `size` poles; the others share their residues where the sum has to be 0.
+MeromorphicForm without_last(MeromorphicForm form, Index size, bool closed);
+
+/// Adds a pole, and its image; the others share the opposite of its residue where the sum has to be 0.
+MeromorphicForm joined(MeromorphicForm form, int vertex, Complex residue, bool closed, const Mirror* mirror);
 
 }  // namespace holomorph::tiling

@@ -1,15 +1,111 @@
 #include "tiling/poles/pole_objective.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "tiling/poles/orbits.h"
-#include "tiling/poles/quick_variance.h"
+#include "linear/dense.h"
+#include "tiling/notation.h"
+#include "uv/density_objective.h"
+#include "uv/minimise.h"
 
 namespace holomorph::tiling {
+namespace {
+
+using Eigen::ArrayXf;
+using Eigen::MatrixXf;
+using Eigen::VectorXf;
+
+// How uneven the density of a form is, for a search that asks often: uv::LogVariance in single precision.
+
+// Variance of log(q / mean q + floor), q = |A|^2, to some 1e-6 of it.
+class QuickVariance {
+ public:
+  /// @param parts #samples x #unknowns: A are their combinations
+  QuickVariance(const Eigen::MatrixXcf& parts, uv::Coefficients kind);
+
+  void set_floor(double floor) { floor_ = static_cast<float>(floor); }
+  double operator()(const VectorXd& x, VectorXd& gradient) const;
+
+  /// Minimises it from `x`, whose scale is free; the first step knows the curvature there.
+  /// @param tick called for each value; it may throw
+  void descend(VectorXd& x, int most_steps, const std::function<void()>& tick) const;
+
+  /// q on the samples.
+  ArrayXd density(const VectorXd& x) const;
+
+ private:
+  MatrixXd inverse_curvature(const VectorXd& x) const;
+
+  Eigen::MatrixXf M_;  // real parts of A above imaginary ones, of each unknown
+  float floor_ = 0;
+};
+
+// Near a zero of the form the logarithm is too curved for its derivative to be of use. There densities count as this
+// part of their geometric mean.
+constexpr float kBent = 0.1F;
+constexpr double kDamping = 0.01;                      // of the mean curvature
+constexpr double kProgress = 1e-5, kShortest = 0.001;  // smaller progress and shorter steps are rounding
+
+ArrayXf squares(const VectorXf& A) {
+  const Index count = A.size() / 2;
+  return A.head(count).array().square() + A.tail(count).array().square();
+}
+
+QuickVariance::QuickVariance(const Eigen::MatrixXcf& parts, uv::Coefficients kind)
+    : M_(2 * parts.rows(), (kind == uv::Coefficients::real ? 1 : 2) * parts.cols()) {
+  M_.leftCols(parts.cols()) << parts.real(), parts.imag();
+  if (kind == uv::Coefficients::complex) M_.rightCols(parts.cols()) << -parts.imag(), parts.real();
+}
+
+double QuickVariance::operator()(const VectorXd& x, VectorXd& gradient) const {
+  VectorXf A = M_ * x.cast<float>();
+  const Index count = A.size() / 2;
+  const ArrayXf q = squares(A);
+  const float mean = q.mean();
+  ArrayXf deviation = (q / mean + floor_).log();
+  deviation -= deviation.mean();
+  const ArrayXf inverse = 1 / (q + floor_ * mean);
+  // The mean depends on all unknowns: this is its part, the same for all samples.
+  const float through_mean = -2 * (deviation * q * inverse).mean() / mean;
+  const ArrayXf by_q = (2 * deviation * inverse + through_mean) * (2 / static_cast<float>(count));
+  A.head(count).array() *= by_q;
+  A.tail(count).array() *= by_q;
+  gradient = (M_.transpose() * A).cast<double>();
+  return deviation.square().mean();
+}
+
+void QuickVariance::descend(VectorXd& x, int most_steps, const std::function<void()>& tick) const {
+  uv::minimise(
+      [&](const VectorXd& at, VectorXd& gradient) {
+        tick();
+        return (*this)(at, gradient);
+      },
+      x, {.most_steps = most_steps, .progress = kProgress, .shortest = kShortest}, inverse_curvature(x));
+  x.normalize();
+}
+
+ArrayXd QuickVariance::density(const VectorXd& x) const { return squares(M_ * x.cast<float>()).cast<double>(); }
+
+// The inverse Hessian of Gauss and Newton: it has first derivatives of the logarithms alone.
+MatrixXd QuickVariance::inverse_curvature(const VectorXd& x) const {
+  const VectorXf A = M_ * x.cast<float>();
+  const Index count = A.size() / 2;
+  const ArrayXf q = squares(A);
+  const float mean = q.mean(), middle = mean * std::exp((q / mean + floor_).log().mean());
+  const ArrayXf inverse = 2 / (q + kBent * middle);
+  MatrixXf J = (inverse * A.head(count).array()).matrix().asDiagonal() * M_.topRows(count);
+  J += (inverse * A.tail(count).array()).matrix().asDiagonal() * M_.bottomRows(count);
+  J.rowwise() -= J.colwise().mean().eval();
+  MatrixXf H = MatrixXf::Zero(J.cols(), J.cols());
+  H.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose(), 2 / static_cast<float>(count));
+  MatrixXd C = H.cast<double>();
+  C.diagonal().array() += kDamping * C.diagonal().mean() + std::numeric_limits<double>::min();
+  return linear::Cholesky(C).inverse();
+}
+
+}  // namespace
 
 constexpr double kWeight = 0.06;  // of the Jacobian's term, against the variance
 constexpr double kEnough = 0.4;   // singular value at which the term is small
@@ -111,7 +207,7 @@ VectorXcd PoleObjective::unknowns(const MeromorphicForm& form) const {
     VectorXd right(2 * basis.rows());
     rows << basis.real(), basis.imag();
     right << form.residues.real(), form.residues.imag();
-    return rows.householderQr().solve(right).cast<Complex>();
+    return linear::least_squares(rows, right).cast<Complex>();
   }
   const Index free = std::max<Index>(0, form.residues.size() - (greens_.basis().closed() ? 1 : 0));
   VectorXcd x(form.coefficients.size() + free);
@@ -132,8 +228,7 @@ void PoleObjective::set(const VectorXcd& x, MeromorphicForm& form) const {
 
 MatrixXcd PoleObjective::jacobian_metric(const ArrayXd& density, Index poles) const {
   if (!has_jacobian(poles)) return {};
-  const Eigen::LLT<MatrixXcd> metric(weighted_gram(theta_, density));
-  return MatrixXcd(metric.matrixU()) * std::sqrt(greens_.basis().area());
+  return linear::Cholesky(weighted_gram(theta_, density)).upper() * std::sqrt(greens_.basis().area());
 }
 
 // kWeight mean log(1 + (kEnough / sigma)^2) over the singular values of [r_i tau_i] in the weighted Gram matrix.
@@ -149,7 +244,7 @@ double PoleObjective::jacobian_term(const std::vector<int>& vertices, const Vect
   const MatrixXcd sum = S + kEnough * kEnough * MatrixXcd::Identity(g, g);
   // The sum of log(1 + (kEnough / sigma)^2) is log det(S + kEnough^2) - log det S, without an eigenproblem.
   return kWeight / static_cast<double>(g) *
-         (std::log(std::abs(sum.determinant())) - std::log(std::abs(S.determinant())));
+         (std::log(std::abs(linear::determinant(sum))) - std::log(std::abs(linear::determinant(S))));
 }
 
 }  // namespace holomorph::tiling

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "tiling/greens/jacobian.h"
+#include "tiling/inversion/abel_jacobi.h"
 #include "tiling/poles/meromorphic_form.h"
 #include "tiling/poles/mirror.h"
 

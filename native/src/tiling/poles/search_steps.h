@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "base/watch.h"
+#include "base/task_progress.h"
+#include "tiling/poles/ambient_occlusion.h"
 #include "tiling/poles/candidate_scores.h"
-#include "tiling/poles/exposure.h"
-#include "tiling/poles/orbits.h"
+#include "tiling/poles/mirror.h"
 #include "tiling/poles/pole_candidates.h"
 #include "tiling/poles/pole_objective.h"
 
@@ -43,7 +43,7 @@ class SearchSteps {
   Execution& execution_;
   PoleCandidates candidates_;
   PoleObjective objective_;
-  Watch watch_;
+  TaskProgress watch_;
   const PoleObjective::Tick tick_ = [this] { watch_(0); };  // on the calling thread
 
  private:

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <set>
 
-#include "base/watch.h"
+#include "base/task_progress.h"
 #include "lattice/blocks.h"
 #include "tiling/poles/meromorphic_form.h"
 
@@ -43,7 +43,7 @@ double excess(const ArrayXd& lengths) {
 
 // Measures the roundings with these integers, and returns the best of them and of a list.
 std::vector<Rounding> best_of(const RoundingProblem& p, const std::set<std::vector<std::int64_t>>& integers,
-                              std::vector<Rounding> list, Execution& execution, Watch& watch) {
+                              std::vector<Rounding> list, Execution& execution, TaskProgress& watch) {
   const std::size_t known = list.size();
   for (const auto& z : integers)
     list.push_back({Eigen::Map<const lattice::IntegerVector>(z.data(), std::ssize(z)), {}});
@@ -141,7 +141,7 @@ RoundingSearch::Weighted RoundingSearch::weighted(const MatrixXcd& rows) {
   const VectorXcd& target = problem_.target;
   const MatrixXd B = as_real(product(rows, problem_.Z, execution_));
   Weighted result{rows, MatrixXd(B.rows(), 2), {}};
-  Watch watch(execution_, kUsualSteps);
+  TaskProgress watch(execution_, kUsualSteps);
   if (is_whole()) {
     result.reduced = lattice::reduce(B, 0.99, [&] { watch(0); });
   } else {
@@ -166,7 +166,7 @@ std::vector<Rounding> RoundingSearch::best() const {
   const double scale = std::sqrt(problem_.median_density / median(problem_.target_density));
   const std::vector<double> turns = phases();
   const int scales = this->scales();
-  Watch watch(execution_, kUsualTargets);
+  TaskProgress watch(execution_, kUsualTargets);
   std::set<std::vector<std::int64_t>> found;
   for (const Weighted& each : weighted_) {
     std::vector<lattice::IntegerVector> list(turns.size() * scales);

@@ -1,10 +1,12 @@
 #include "tiling/rounding/rounding_metric.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "base/chunks.h"
+#include "linear/dense.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -17,7 +19,7 @@ constexpr Index kManyColumns = 192, kColumns = 32;  // matrices with many column
 MatrixXcd root(MatrixXcd H) {
   if (H.rows() == 0) return H;
   H += kRegular * H.diagonal().real().maxCoeff() * MatrixXcd::Identity(H.rows(), H.cols());
-  return Eigen::LLT<MatrixXcd>(H).matrixU();
+  return linear::Cholesky(H).upper();
 }
 
 // Calls task(begin, size) for blocks of columns, in parallel.
@@ -48,6 +50,31 @@ MatrixXcd gram(const MatrixXcd& forms, const VectorXcd& weights, Execution& exec
 
 }  // namespace
 
+constexpr double kSame = 1e-9;  // relative distance up to which points count as the same
+
+Eigen::Vector2d TextureLattice::coordinates(Complex z) const {
+  Eigen::Matrix2d A;
+  A << a.real(), b.real(), a.imag(), b.imag();
+  return A.inverse() * Eigen::Vector2d(z.real(), z.imag());
+}
+
+Complex TextureLattice::nearest(Complex z) const {
+  const Eigen::Vector2d c = coordinates(z);
+  return point(std::round(c[0]), std::round(c[1]));
+}
+
+bool TextureLattice::has(Complex z) const { return std::abs(z - nearest(z)) < kSame * std::abs(z); }
+
+double TextureLattice::symmetry() const {
+  for (const int part : {3, 2}) {
+    const Complex turn = std::polar(1.0, std::numbers::pi / part);
+    if (has(turn * a) && has(turn * b)) return std::numbers::pi / part;
+  }
+  return std::numbers::pi;
+}
+
+bool TextureLattice::is_mirrored() const { return has(std::conj(a)) && has(std::conj(b)); }
+
 VectorXcd mean_weights(const ArrayXd& density) {
   const ArrayXd floored = density + uv::kDensityFloor * density.mean();
   return (1 / (floored * static_cast<double>(density.size()))).matrix().cast<Complex>();
@@ -69,9 +96,9 @@ MatrixXcd RoundingMetric::rows(double defect) const {
   const MatrixXcd& metric = problem_.defect_metric;
   // Defects as a Gaussian: those of size `defect` cost 1, and those that moving poles repairs are as likely. The
   // inverse covariance is the metric.
-  MatrixXcd covariance = defect * defect * (metric.adjoint() * metric).inverse();
+  MatrixXcd covariance = defect * defect * linear::inverse(MatrixXcd(metric.adjoint() * metric));
   if (problem_.repairable.size() > 0) covariance += problem_.repairable;
-  rows.bottomRightCorner(l, l) = root(covariance.inverse());
+  rows.bottomRightCorner(l, l) = root(linear::inverse(covariance));
   return rows;
 }
 

@@ -2,10 +2,25 @@
 #pragma once
 
 #include "base/execution.h"
-#include "tiling/rounding/texture_lattice.h"
-#include "uv/log_variance.h"
+#include "tiling/notation.h"
+#include "uv/density_objective.h"
 
 namespace holomorph::tiling {
+
+/// The translations of the texture that leave it as it is: all integer combinations of two complex numbers.
+struct TextureLattice {
+  Complex a = 1, b = {0, 1};
+
+  Complex point(double m, double n) const { return m * a + n * b; }
+  /// Coordinates (m, n), integers at the lattice's points.
+  Eigen::Vector2d coordinates(Complex z) const;
+  Complex nearest(Complex z) const;
+  bool has(Complex z) const;  ///< up to rounding, z not 0
+  /// The least rotation that takes the lattice to itself, in radians: pi / 2, pi / 3 or, for most lattices, pi.
+  double symmetry() const;
+  /// Whether z -> conj z takes the lattice to itself.
+  bool is_mirrored() const;
+};
 
 /// Forms in coordinates y = (c_j, r_i, t_l): A = forms y on the samples, and B = defects t, what keeps the form from
 /// being conformal. With D integers z for the periods and residues, y = Z z.

@@ -1,0 +1,80 @@
+// Harmonic forms with what is certified of them: energies with their rounding, invariants (paper § 7, § 9), errors.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/execution.h"
+#include "conformal/holomorphic_basis.h"
+#include "forms/certificates.h"
+#include "forms/closed_forms.h"
+#include "mesh/delaunay.h"
+#include "structure/topology.h"
+#include "uv/balance.h"
+
+namespace holomorph::structure {
+
+/// Errors of the solution, relative; see the functions that measure them.
+struct Certificate {
+  forms::Residuals residuals;  ///< largest of all forms, on the triangulation that was solved on
+  double periods = 0;          ///< largest |int_{zeta_i} h_j - delta_ij|; with poles also |int over a link - residue|
+  double pairing = 0;          ///< with boundary: largest |int h^N_i ^ h - (W c)_i| of one h = sum_j c_j h^D_j
+  double asymmetry = 0;        ///< the asymmetry of the Gram matrix of streamed forms, before it was made symmetric
+  double metric = 0;           ///< largest relative error of a triangle's energy from rounding; 1 if unknown
+};
+
+/// The relative amount by which bounds may cross: rounding, where no triangle is thin.
+inline constexpr double kCertain = 1e-11;
+/// The largest relative change of an energy by rounding that is accepted: beyond it, not even the first digit is
+/// certain.
+inline constexpr double kMostUncertain = 0.5;
+
+/// Gram matrices of forms, one for each family, and matrices that are certainly not below those of the surface.
+struct CertainGram {
+  std::vector<Eigen::MatrixXd> gram, certain;
+};
+
+/// Adds to each Gram matrix the bound of its rounding: G + E.
+/// @param errors E for each of `gram`, or none where they are negligible
+/// @throws SolverError where E is more than kMostUncertain of G
+CertainGram certain_gram(std::vector<Eigen::MatrixXd> gram, const std::vector<Eigen::MatrixXd>& errors);
+
+/// Measures the energies of forms on a discretisation. @param families numbers of forms
+/// @throws SolverError where rounding leaves no digit
+CertainGram certain_energies(const mesh::Discretisation& discretisation, const forms::ClosedForms& forms,
+                             const std::vector<int>& families, Execution& execution);
+
+/// Checks that lower <= upper as quadratic forms. @param allowed amount by which they may cross, relative to the upper
+/// bound
+/// @throws SolverError where bounds are not finite or cross
+void require_ordered(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& upper, double allowed = kCertain);
+
+/// Reports a failure that triangles too thin for double precision cause. @throws SolverError always
+[[noreturn]] void refuse(const std::string& what, double size, double allowed);
+
+struct Invariants {
+  CertainGram energies;                     ///< energies of the natural and, with boundary, the Dirichlet forms
+  conformal::HolomorphicBasis holomorphic;  ///< star, holomorphic basis and period matrix (Eq. 13) with its bounds
+};
+
+/// @throws SolverError
+Invariants invariants(const Topology& topology, CertainGram energies);
+
+/// The harmonic forms eta_j + d f_j of a surface, measured.
+struct HarmonicForms {
+  std::shared_ptr<const forms::RowMajorMatrix> functions;  ///< #V x #forms; null if streamed
+  uv::FormSamples samples;                                 ///< samples of streamed forms, for the balance
+  Invariants invariants;
+  Certificate certificate;
+};
+
+/// Measures functions that were solved for: energies and what follows from them, and the certificate.
+/// @param classes those of the topology on the discretisation, see classes_on
+/// @param functions #V x #forms. @throws SolverError
+HarmonicForms measured(const mesh::Surface& surface, const Topology& topology,
+                       const mesh::Discretisation& discretisation, const topology::IntegerForms& classes,
+                       forms::RowMajorMatrix functions, Execution& execution);
+
+}  // namespace holomorph::structure
