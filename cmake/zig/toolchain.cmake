@@ -22,9 +22,8 @@ set(CMAKE_MODULE_LINKER_FLAGS_INIT -s)
 set(CMAKE_INTERPROCEDURAL_OPTIMIZATION OFF)
 set(CMAKE_USER_MAKE_RULES_OVERRIDE_CXX ${CMAKE_CURRENT_LIST_DIR}/rules.cmake)
 
-# Nothing of the computer that compiles is used but the templates of Eigen and OpenMesh, which are the same everywhere.
+# Nothing of the computer that compiles is used but the templates of Eigen, which are the same everywhere.
 set(CMAKE_FIND_ROOT_PATH ${CMAKE_CURRENT_LIST_DIR})
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(Eigen3_DIR /usr/share/eigen3/cmake CACHE PATH "")
-set(OpenMesh_DIR ${CMAKE_CURRENT_LIST_DIR} CACHE PATH "")
