@@ -154,7 +154,7 @@ def raised(
     pixels = checked_heights(heights)
     depth = checked_depth(depth, surface.vertices)
     most = check_choices(repeats, level, tolerance, most_triangles)
-    of_vertices, of_corners, are_reflex = normals(surface)
+    of_vertices, of_corners, are_reflex = normals(surface, level == 0)
     found = _native.relief(
         surface._native,
         tiled._coordinates(((repeats, 0), (0, repeats))),

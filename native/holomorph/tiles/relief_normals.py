@@ -11,12 +11,12 @@ REFLEX = 1.1 * np.pi
 PULL = 1e-6  # towards the mean normal, against 1 for all faces: decides where these leave a direction free
 
 
-def normals(surface):
+def normals(surface, is_raised=True):
     """((#V, 3), (3 #T, 3), (3 #T,) bool): vectors by which vertices are moved; the same of each corner of the triangles
     for the smooth part of the surface around it alone; whether that part has more than half of the angle.
 
     Moved by these, faces stay parallel to themselves. Hollow edges part nothing: their two sides come nearer to each
-    other, over all of their faces.
+    other, over all of their faces. So do those of convex edges where the surface is not only raised.
 
     On a smooth part it is m / m^2, m the mean of the normals around by angles. Where sharp edges meet, it is the vector
     whose components along the normals of all parts are theirs, by least squares.
@@ -31,7 +31,7 @@ def normals(surface):
     first = first[is_sharp[vertices[first]]]
     if len(first):
         moved[is_sharp] = _all_parallel(of_fans[first], weight[first], vertices[first], moved)[is_sharp]
-    return moved, of_fans[fans], weight[fans] > REFLEX
+    return moved, of_fans[fans] if is_raised else moved[vertices], weight[fans] > REFLEX
 
 
 def _is_convex(surface):

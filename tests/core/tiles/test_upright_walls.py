@@ -51,10 +51,10 @@ SURFACES = {
 HOLLOW = {"six-sided tube": 6, "twelve-sided tube": 12, "square tube": 4}  # numbers of their inner walls
 
 
-def raised(surface):
+def raised(surface, level=0.0):
     picture = np.full((32, 32), 0.3)
     picture[8:24, 8:24] = 1
-    return automatic_map(surface, main="seamless", tiles=24).tiled.relief(picture, DEPTH)
+    return automatic_map(surface, main="seamless", tiles=24).tiled.relief(picture, DEPTH, level=level)
 
 
 def normals(points, triangles):
@@ -101,10 +101,11 @@ def test_heights_go_straight_up_but_within_a_depth_of_a_sharp_edge(name):
     assert lean[is_away].max() <= facets + 1e-4
 
 
+@pytest.mark.parametrize("level", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("name", SURFACES)
-def test_all_faces_stay_parallel_to_themselves(name):
+def test_all_faces_stay_parallel_to_themselves(name, level):
     """Each is moved by the height, also at the vertices of rims."""
-    made = raised(SURFACES[name]())
+    made = raised(SURFACES[name](), level)
     moved = (made.vertices - made.base)[made.triangles]
     up = np.einsum("tkx,tx->tk", moved, normals(made.base, made.triangles))
     expected = made.depth * made.heights[made.triangles]
@@ -112,9 +113,10 @@ def test_all_faces_stay_parallel_to_themselves(name):
     assert np.abs(up - expected).max() <= facets + 1e-5
 
 
+@pytest.mark.parametrize("level", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("name", SURFACES)
-def test_it_is_closed_and_does_not_cross_itself(name):
-    made = raised(SURFACES[name]())
+def test_it_is_closed_and_does_not_cross_itself(name, level):
+    made = raised(SURFACES[name](), level)
     sides = np.concatenate([made.triangles[:, [k, (k + 1) % 3]] for k in range(3)]).astype(np.int64)
     count = len(made.base)
     assert np.array_equal(np.sort(sides @ (count, 1)), np.sort(sides @ (1, count)))
