@@ -7,6 +7,7 @@ import numpy as np
 from .. import Error, InvalidMesh, Map, Surface, TopologyError, automatic_maps
 from ..files import printing, whole_file
 from ..mesh.checks import check_options, real_number
+from ..tiles.coarse import with_room
 from ..tiles.height_image import height_image
 from ..tiles.relief import LEAST_PART, check_choices, checked_depth, checked_heights, joined, plain, stretched_sentence
 from ..tiles.shells import outward, turned_sentence
@@ -96,7 +97,7 @@ def _made(options, depth):
     warn(options.mesh, surface.repairs.notes)
     surface, turned = outward(_scaled(surface, UNITS[options.unit]))
     depth = _of_mesh(checked_depth, depth, surface.vertices)
-    parts = surface.components
+    parts = [with_room(part) for part in surface.components]
     maps = automatic_maps(parts, main="seamless", tiles=options.tiles, threads=options.threads)
     reasons = [f"{found.why}" if isinstance(found, Map) else str(found) for found in maps]
     choices = {name: getattr(options, name) for name in ("repeats", "level", "tolerance", "most_triangles")}

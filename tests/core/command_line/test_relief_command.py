@@ -5,9 +5,11 @@ import sys
 import families
 import numpy as np
 import pytest
+import solids
 from heights import dots
 from holomorph import Surface, height_image
 from holomorph.__main__ import main
+from holomorph.tiles.coarse import FEW, with_room
 from holomorph.tiles.relief import volume
 from holomorph.tiles.shells import outward
 from solved import surface_of
@@ -53,6 +55,27 @@ def test_a_closed_mesh_gets_a_closed_relief(folder, capsys):
     told = capsys.readouterr().out
     assert "triangles, 1 mm deep" in told
     assert "crosses" not in told
+
+
+SOLIDS = {
+    "tetrahedron": lambda: surface_of(families.tetrahedron()),
+    "cube": lambda: surface_of(families.cube()),
+    "prism": lambda: solids.can(5),
+}
+
+
+@pytest.mark.parametrize("name", SOLIDS)
+def test_a_coarse_solid_gets_smaller_triangles_first(name, folder):
+    """Its few faces meet at any two poles, where all that is raised fades out."""
+    coarse = SOLIDS[name]()
+    solid = Surface.from_polygons(20 * coarse.vertices, coarse.corner_vertices, coarse.face_offsets)
+    fine = with_room(solid)
+    assert len(fine.triangles) >= FEW and (fine.genus, fine.boundary_count) == (0, 0)
+    assert fine.area == pytest.approx(solid.area) and of(fine) == pytest.approx(of(solid)) and with_room(fine) is fine
+    solid.write("solid.obj")
+    assert run(mesh="solid.obj") == 0
+    assert (written().genus, written().boundary_count) == (0, 0)
+    assert 0.02 * solid.area < of(written()) - of(solid) < 0.4 * solid.area
 
 
 def test_units(folder):
