@@ -167,38 +167,39 @@ def _made(solved, options, progress):
     Refusals are told. What no tiling fits gets another map, if what is chosen fits anywhere."""
     holomorph, wanted = native.load(), options[0].tiling
     components = [one.done for one in solved]
-    wishes = [[_wish(part, own) for part in parts] for parts, own in zip(components, options)]
+    requests = [[_request(part, own) for part in parts] for parts, own in zip(components, options)]
     size = wanted.size and holomorph.maps.size.SizePolicy(*wanted.size)
     if not size:
         surfaces = [part.surface for parts in components for part in parts]
         tiles = None if wanted.density else wanted.tiles or None
         size = holomorph.maps.size.SizePolicy.of(surfaces, tiles, wanted.density or None)
-    found = holomorph.maps.map_objects.map_objects(wishes, size, progress=progress)
-    return [(_parts(*each, maps), astuple(own)) for *each, (maps, own) in zip(components, wishes, options, found)]
+    found = holomorph.maps.map_objects.map_objects(requests, size, progress=progress)
+    return [(_parts(*each, maps), astuple(own)) for *each, (maps, own) in zip(components, requests, options, found)]
 
 
-def _parts(components, wishes, options, made):
+def _parts(components, requests, options, made):
     """The `MappedPart`s of one object."""
     reasons = ["" if hasattr(one, "uv") else native.sentence(one) for one in made]
     if options.main == TILING and options.tiling.is_chosen and all(reasons):
         return [MappedPart(component, skipped=reason) for component, reason in zip(components, reasons)]
-    return [_part(*each) for each in zip(components, wishes, made, reasons)]
+    return [_part(*each) for each in zip(components, requests, made, reasons)]
 
 
-def _part(component, wish, made, refusal):
+def _part(component, request, made, refusal):
     """With another map than a tiling that is refused."""
-    if refusal and wish.main == "balanced":
+    if refusal and request.main == "balanced":
         return MappedPart(component, skipped=refusal)
     if refusal:
-        made = native.load().automatic_map(wish.surface, wish.structure, main="untiled", evenness=wish.evenness)
+        given = request.surface, request.structure
+        made = native.load().automatic_map(*given, main="untiled", evenness=request.evenness)
     return MappedPart(component, made, not_seamless=refusal)
 
 
-def _wish(component, options):
-    """The `holomorph.maps.map_objects.Wish` for a part. Evening is slow while forms are mixed."""
+def _request(component, options):
+    """The `holomorph.maps.map_objects.Request` for a part. Evening is slow while forms are mixed."""
     main, wanted = _main(component, options), options.tiling
     is_slow = main == "balanced" and options.are_mixed and len(component.surface.triangles) > MIXED_EVENED
-    made = native.load().maps.automatic_maps.wish_of_part(
+    made = native.load().maps.automatic_maps.request_of_part(
         component.surface,
         component.structure,
         main,

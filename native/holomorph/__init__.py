@@ -40,7 +40,8 @@ from .tiles.height_image import height_image
 from .mesh.holes import punch_holes
 from .moduli.igusa import IgusaInvariants, igusa_invariants
 from .tiling.image_lattice import ImageLattice, image_lattice
-from .cutting.island_map import Islands, island_map
+from .cutting.island_layout import Islands
+from .cutting.island_map import island_map
 from .cutting.islands import islands
 from .levels.levels import LevelOfDetail
 from .tiles.lines import Lines

@@ -1,5 +1,6 @@
 """Where a surface is cut into islands: at hard edges and tips, until all are disks, and to cone points."""
 
+import copy
 import math
 
 import numpy as np
@@ -21,6 +22,12 @@ class Cuts:
         self.mask = is_hard_edge | cuts_to_tips(surface, is_hard_edge)
         pieces = self.pieces()
         self.mask |= self._of(pieces, _native.cuts_to_disks(pieces._native, progress).astype(bool))
+
+    def copy(self):
+        """The same cuts, to which others may be added."""
+        result = copy.copy(self)
+        result.mask = self.mask.copy()
+        return result
 
     def pieces(self):
         """A `Surface` of several components, more polygons at its end in small holes."""

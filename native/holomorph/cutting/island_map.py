@@ -3,65 +3,36 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
-from .. import _native
 from ..core import arrays
-from ..core.array_types import Integers, Progress, Reals
+from ..core.array_types import Progress
 from ..core.progress import scaled
-from ..core.value import Value, counted
 from ..mesh.checks import check_threads, check_type, checked_evenness, real_number
 from ..mesh.surface import Surface
-from ..packing.layout import pack
-from ..quality.appearance import cost
-from ..quality.overlap import overlapping_part
+from ..quality.appearance import HARD_SEAM, SEAM, cost
 from ..quality.quality import Quality
-from .hard_edges import bends, curvature, seen
-from .island_cuts import Cuts, corner_pieces, in_one_orientation
+from .hard_edges import bends, curvature
+from .island_cuts import Cuts, in_one_orientation
+from .island_layout import Flattened, Islands, visible_lengths
 
 HARD = 60.0, 40.0, 30.0  # degrees between two faces, from which on a seam is expected, if need be
 SMOOTH = 35.0  # degrees: a part without sharper edges is a coarse mesh of something smooth
 FINE = 0.3  # cost of the squares, from which on no other angle is tried
-MARGIN = 0.02  # between islands, in sides of the square that they are packed into
-AXES = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))  # what is up on an island: the first that it shows
 MANY = 1.0  # length of hard edges over the square root of the area, from which on these shape the part
 FLAT = 2 * math.pi  # radians of curvature, all of it counted positive, up to which a part with several loops is tried
-SHOWN = 0.2  # part of the area over which the axis is seen, from which on it counts
-TURNED = 1e-3  # 1 less the cosine of an angle that is a turn
 CONES, ROUNDS = 8, 4  # at most: cuts of each piece to cone points in a round, and rounds
-SAME = 1e-5  # UV distance over the size of the map, below which the two sides of an edge are at one place
 
+# What remains in the end of what cuts and conformal squares cost, as it was seen on some twenty meshes.
+LEAST_SEAMS = 0.8  # of the seams, at least: some pieces fit edge to edge
+EVENED = 0.45  # of what is minded of the squares, about
+HOPELESS = 2.0  # times the cost that is wanted at most: cuts to cone points hardly bring it there
+PARTED = 0.1  # of overlaps at most: they may go, or are cut apart
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Islands(Value):
-    """A map in islands that lie beside each other, one unit of length on the surface a UV unit. Read-only arrays.
-
-    uv : (#C, 2)
-    seams : (#S, 2) vertices of the edges where the UVs jump
-    count : of the islands
-    soft_length, hard_length : of the seams across the smooth, and along hard edges that hide them, over the square root
-        of the surface's area
-    quality : `Quality`, also of how far islands lie over themselves
-    evenness : from 0, conformal, to 1: how far squares of one size were preferred to angles
-    """
-
-    uv: Reals
-    seams: Integers
-    count: int
-    soft_length: float
-    hard_length: float
-    quality: Quality
-    evenness: float
-
-    @property
-    def cost(self) -> float:
-        """The cost to the eye, see `appearance.cost`."""
-        return cost(self.quality, 0, self.soft_length, self.hard_length)
-
-    def _facts(self):
-        return [counted(self.count, "island"), *self.quality._facts()]
+FLATTENING, EVENING = 5, 10  # work for each triangle, in the unit of `IslandSearch.best`
 
 
 def island_map(
@@ -92,25 +63,8 @@ def island_map(
     check_type(surface, Surface)
     evenness, threads = checked_evenness(evenness), check_threads(threads or None)
     hard_edges = None if hard_edges is None else real_number(hard_edges, "hard_edges", positive=True)
-    progress = scaled(progress, 0.0, 0.0)  # whether to go on; how long it takes is not known
-    given, (surface, order) = surface, in_one_orientation(surface)
-    bent, found = bends(surface), None
-    first, *_ = angles = HARD if hard_edges is None else (hard_edges,)
-    for degrees in angles:
-        is_hard_edge = bent > np.radians(degrees)
-        may_be_flat = degrees == first and _may_be_flat(surface)
-        is_shaped = (found or degrees > SMOOTH) and _is_shaped_by(surface, is_hard_edge)
-        if not may_be_flat and not is_shaped:
-            continue
-        found = _better(found, _Layout(surface, bent, evenness, threads, progress).along(is_hard_edge))
-        if found and cost(found.quality) <= FINE:
-            break
-    if found is None or surface is given:
-        return found
-    uv = np.empty_like(found.uv)
-    uv[order] = found.uv
-    of_corners = {"overlapping_part": found.quality.overlapping_part, "unseen_angle": found.quality.unseen_angle}
-    return replace(found, uv=arrays.frozen(uv), quality=replace(Quality.of(given._native, uv, threads), **of_corners))
+    angles = HARD if hard_edges is None else (hard_edges,)
+    return IslandSearch(surface, angles, evenness, threads).best(progress=progress)
 
 
 def one_island(surface, tiling):
@@ -122,132 +76,155 @@ def one_island(surface, tiling):
     return Islands(arrays.frozen(tiling.uv / size), tiling.seams, 1, float(soft), 0.0, quality, tiling.evenness)
 
 
-def _better(found, made):
-    return made if found is None or made is not None and made.cost < found.cost else found
+class _Candidate(NamedTuple):
+    """A layout that may be worth evening. islands : the conformal ones, as they are laid out; rounds : of further cuts
+    that may follow"""
+
+    flattened: Flattened
+    islands: Islands
+    rounds: int
 
 
-def _may_be_flat(surface):
-    """Whether to try where no edge is hard: it is a disk, or has little curvature. Else a cut would be one through the
-    smooth."""
-    is_disk = (surface.genus, surface.boundary_count) == (0, 1)
-    return is_disk or surface.boundary_count > 0 and curvature(surface) < FLAT
+class IslandSearch:
+    """The islands of a surface, looked for as far as they are worth it: along hard edges, then also to cone points and
+    between what overlaps, for one angle of hard edges after the other. All is first laid out conformal, which is quick.
+    Only what may be the best is evened."""
 
+    def __init__(self, surface, angles, evenness, threads):
+        self.surface, (self._surface, self._order) = surface, in_one_orientation(surface)
+        self._angles, self._evenness, self._threads = angles, evenness, threads
+        self._bends = bends(self._surface)
+        self.known: Islands | None = None  # the best that was found
+        self._asked = -math.inf, -math.inf  # the bounds for which they were looked for
+        self._hopeless, self._hard_seam, self._left, self._progress = math.inf, HARD_SEAM, math.inf, None
 
-def _is_shaped_by(surface, is_hard_edge):
-    """Whether there are many hard edges."""
-    return surface._native.edge_lengths[is_hard_edge].sum() > MANY * math.sqrt(surface.area)
+    def best(self, most: float = math.inf, work: float = math.inf, progress: Progress | None = None) -> Islands | None:
+        """The `Islands` of least cost, if it is below `most`, and they are found by so much work. What was found for
+        other bounds is taken where it does.
 
+        work : in millionths of about a second of one processor"""
+        asked = most, work
+        is_settled = self.known is not None and self._asked[1] == math.inf and self.known.cost < self._asked[0]
+        if not is_settled and any(new > old for new, old in zip(asked, self._asked)):
+            self._asked, self._left = asked, work
+            self.known = self._search(most, progress) or self.known
+        return self.known if self.known is not None and self.known.cost < most else None
 
-@dataclass(frozen=True)
-class _Layout:
-    """How islands are made of a surface, whose edges are bent by angles, (#E,)."""
+    def at_once(self, most: float, progress: Progress | None = None) -> Islands | None:
+        """Those of least cost but for hard seams, if it is below `most`. Quick: what is `HOPELESS` is not cut to cone
+        points."""
+        self._hopeless, self._hard_seam = HOPELESS * most, 0.0
+        self.known = self._search(most, progress)
+        self._hopeless, self._hard_seam = math.inf, HARD_SEAM
+        return self.known
 
-    surface: Surface
-    bends: Reals
-    evenness: float
-    threads: int
-    progress: Progress | None
+    def _search(self, most, progress):
+        self._progress = scaled(progress, 0.0, 0.0)  # whether to go on; how long it takes is not known
+        found = None
+        for degrees in self._angles:
+            if not self._is_tried(degrees, found is not None or degrees > SMOOTH):
+                continue
+            made = self._along(self._cuts(degrees), most if found is None else self._cost(found))
+            found = made or found
+            if found and cost(found.quality) <= FINE:
+                break
+        return found and self._as_given(found)
 
-    def along(self, is_hard_edge):
-        """The `Islands`, cut along these edges, (#E,) bool; to cone points and across overlaps if that looks better."""
-        cuts, found = Cuts(self.surface, is_hard_edge, self.progress), None
+    def _cuts(self, degrees):
+        return Cuts(self._surface, self._bends > np.radians(degrees), self._progress)
+
+    def _is_tried(self, degrees, is_wanted):
+        """Where no edge is hard a cut would be one through the smooth; but a disk, or what has little curvature, may be
+        flat."""
+        surface = self._surface
+        if degrees == self._angles[0]:
+            is_disk = (surface.genus, surface.boundary_count) == (0, 1)
+            if is_disk or surface.boundary_count > 0 and curvature(surface) < FLAT:
+                return True
+        is_hard_edge = self._bends > np.radians(degrees)
+        return is_wanted and surface._native.edge_lengths[is_hard_edge].sum() > MANY * math.sqrt(surface.area)
+
+    def _along(self, cuts, most):
+        """The best `Islands` from these cuts on that cost less than `most`, or None."""
+        candidates, found = self._candidates(cuts, most, ROUNDS), None
         for _ in range(ROUNDS):
-            pieces, flat = self._flattened(cuts)
-            if flat is None:
+            worth = [one for one in candidates if self._guess(one) < most or math.isinf(most)]
+            if not worth:
                 break
-            made, uv = self._laid_out(cuts, pieces, flat)
-            found = _better(found, made)
-            if not self._cut_to_cones(cuts, pieces, flat) and not cuts.add(cuts.across_overlaps(pieces, uv)):
-                break
+            one = min(worth, key=self._guess)
+            candidates.remove(one)
+            made, uv = self._evened(one)
+            if self._cost(made) < most:
+                found, most = made, self._cost(made)
+            if made.overlap_cost > 0:
+                candidates += self._parted(one, uv, most)
         return found
 
-    def _flattened(self, cuts):
-        """The pieces, and their flat maps, None where one has none."""
-        pieces = cuts.pieces()
-        flat = _native.flattened(pieces._native, self.threads, self.progress)
-        return pieces, flat if flat.is_flat.all() else None
+    def _evened(self, candidate):
+        """(`Islands`, UVs of the pieces before they are laid out)"""
+        self._left -= EVENING * len(self._surface.triangles)
+        flattened = candidate.flattened
+        uv = flattened.evened(self._evenness)
+        if self._evenness == 0:
+            return candidate.islands, uv
+        return flattened.laid_out(uv, self._evenness, candidate.islands), uv
 
-    def _cut_to_cones(self, cuts, pieces, flat):
+    def _candidates(self, cuts, most, rounds):
+        """The `_Candidate`s of cuts, and of further ones to cone points."""
+        result = []
+        for left in range(rounds - 1, -1, -1):
+            flattened = self._flattened(cuts, most)
+            if flattened is None:
+                break
+            result.append(_Candidate(flattened, flattened.laid_out(flattened.evened(0.0), 0.0), left))
+            if self._guess(result[-1]) >= self._hopeless or not self._cut_to_cones(cuts, flattened, most):
+                break
+        return result
+
+    def _parted(self, candidate, uv, most):
+        """The `_Candidate`s with further cuts across the overlaps that its pieces have with these UVs, if any."""
+        cuts = candidate.flattened.cuts.copy()
+        is_cut = cuts.add(cuts.across_overlaps(candidate.flattened.pieces, uv))
+        return self._candidates(cuts, most, candidate.rounds) if is_cut else []
+
+    def _flattened(self, cuts, most):
+        """None where seams alone cost too much, no work is left, or a piece has no flat map."""
+        if LEAST_SEAMS * self._seam_cost(cuts) >= most or self._left <= 0:
+            return None
+        self._left -= FLATTENING * len(self._surface.triangles)
+        return Flattened.of(cuts, self._bends, self._threads, self._progress)
+
+    def _cut_to_cones(self, cuts, flattened, most):
         """Whether there was a piece to cut; of each one after the other, until none stretches."""
         count = 0
-        while flat is not None and count < CONES and cuts.add(cuts.to_cones(pieces, flat)):
-            pieces, flat = self._flattened(cuts)
+        while flattened is not None and count < CONES and cuts.add(cuts.to_cones(flattened.pieces, flattened.flat)):
+            flattened = self._flattened(cuts, most)
             count += 1
         return count > 0
 
-    def _laid_out(self, cuts, pieces, flat):
-        """The `Islands`, and UVs of the pieces before they are laid edge to edge."""
-        flat_uv = _native.evened_islands(pieces._native, flat, self.evenness, self.threads, self.progress)
-        uv, joints = _upright(pieces, flat_uv), cuts.joints()
-        uv, nets = _native.joined(pieces._native, uv, _preferred(uv, joints), flat.is_flat)
-        corners = len(self.surface.corner_vertices)
-        uv, count = _packed(uv[:corners], nets[corner_pieces(pieces)][:corners])
-        seams = cuts.mask & ~_is_continuous(cuts, uv, joints)
-        native = self.surface._native
-        ends, lengths = np.asarray(native.edges)[seams], np.asarray(native.edge_lengths)[seams]
-        soft = seen(self.bends[seams])
-        visible = (float((lengths * part).sum()) / math.sqrt(self.surface.area) for part in (soft, 1 - soft))
-        quality = self._quality(cuts, pieces, flat, uv)
-        return Islands(arrays.frozen(uv), arrays.frozen(ends), count, *visible, quality, self.evenness), flat_uv
+    def _seam_cost(self, cuts):
+        soft, hard = visible_lengths(self._surface, self._bends, cuts.mask)
+        return SEAM * soft + self._hard_seam * hard
 
-    def _quality(self, cuts, pieces, flat, uv):
-        """The `Quality` on the triangles of the surface; overlaps are measured within seams and boundary."""
-        native = self.surface._native
-        quality = Quality.of(native, uv, self.threads)
-        if self.evenness > 0:
-            conformal = _native.evened_islands(pieces._native, flat, 0.0, self.threads, None)[: len(uv)]
-            quality = quality.evened_from(Quality.of(native, conformal, self.threads), self.evenness)
-        is_border = cuts.mask | (np.bincount(cuts.edges, minlength=len(cuts.mask)) == 1)
-        starts = np.flatnonzero(is_border[cuts.edges])
-        border = (uv @ [1, 1j])[np.stack([starts, cuts.following[starts]], axis=1)]
-        return replace(quality, overlapping_part=overlapping_part(border))
+    def _cost(self, islands):
+        return islands.cost - (HARD_SEAM - self._hard_seam) * islands.hard_length
 
+    def _guess(self, candidate):
+        """About what it costs when squares are evened, and what overlaps is cut apart."""
+        islands = candidate.islands
+        squares = islands.cost - islands.seam_cost - islands.overlap_cost
+        if not math.isfinite(squares):
+            return math.inf
+        left = EVENED if self._evenness > 0 else 1.0
+        return self._cost(islands) - (1 - left) * squares - max(islands.overlap_cost - PARTED, 0.0)
 
-def _upright(pieces, uv):
-    """The map with each piece turned about 0 so that the axis which it shows most of runs up."""
-    z = uv @ [1, 1j]
-    corners = z[pieces.triangle_corners]
-    across = 0.5j * (np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1))  # times heights, summed: gradients
-    at, count = pieces._native.face_component[pieces.triangle_faces], pieces._native.component_count
-    points = pieces.vertices[pieces.triangles]
-    sides = points[:, 1:] - points[:, :1]
-    areas = np.bincount(at, np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1) / 2, count)
-    turn = np.ones(count, complex)
-    is_open = np.ones(count, bool)
-    for axis in AXES:
-        rise = (across * (points @ axis)).sum(axis=1)
-        slope = np.bincount(at, rise.real, count) + 1j * np.bincount(at, rise.imag, count)
-        is_shown = is_open & (np.abs(slope) > SHOWN * areas)
-        turn[is_shown] = 1j * np.abs(slope[is_shown]) / slope[is_shown]
-        is_open &= ~is_shown
-    z *= turn[corner_pieces(pieces)]
-    return np.stack([z.real, z.imag], axis=1)
-
-
-def _preferred(uv, joints):
-    """The joints whose pieces stay as they are turned first, and longer ones before shorter ones."""
-    a, b, c, d = (uv @ [1, 1j])[joints.T]
-    to, come = b - a, c - d
-    lengths = np.abs(to)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        cosine = np.nan_to_num((to * np.conj(come)).real / (lengths * np.abs(come)), nan=-1.0)
-    longest = lengths.max(initial=0.0) or 1.0
-    return joints[np.lexsort((-np.round(lengths / longest, 6), cosine < 1 - TURNED))]
-
-
-def _packed(uv, nets):
-    """The UVs with nets side by side, and how many nets there are. nets : (#C,) the one of each corner"""
-    names, nets = np.unique(nets, return_inverse=True)
-    low, high = np.full((len(names), 2), np.inf), np.full((len(names), 2), -np.inf)
-    np.minimum.at(low, nets, uv)
-    np.maximum.at(high, nets, uv)
-    places, _ = pack(high - low, MARGIN)
-    return uv + (places - low)[nets], len(names)
-
-
-def _is_continuous(cuts, uv, joints):
-    """(#E,) whether the UVs are the same on both sides of an edge that is cut."""
-    a, b, c, d = (uv @ [1, 1j])[joints.T]
-    result = np.zeros(len(cuts.mask), bool)
-    result[cuts.edges[joints[:, 0]]] = np.maximum(np.abs(a - d), np.abs(b - c)) <= SAME * np.ptp(uv, axis=0).max()
-    return result
+    def _as_given(self, found):
+        """With corners as they were given, where polygons were turned round."""
+        if self._surface is self.surface:
+            return found
+        uv = np.empty_like(found.uv)
+        uv[self._order] = found.uv
+        quality, kept = found.quality, ("overlapping_part", "unseen_angle")
+        of_corners = {name: getattr(quality, name) for name in kept}
+        quality = replace(Quality.of(self.surface._native, uv, self._threads), **of_corners)
+        return replace(found, uv=arrays.frozen(uv), quality=quality)

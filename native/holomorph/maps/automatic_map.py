@@ -11,7 +11,7 @@ from ..tiling.tiling import Poles
 from .automatic_structure import AnyStructure
 from .map import Map
 from .map_choice import EVENNESS
-from .map_objects import Wish, map_objects
+from .map_objects import Request, map_objects
 from .size import TOLERANCE, SizePolicy
 
 
@@ -62,9 +62,9 @@ def automatic_map(
     """
     check_type(surface, Surface)
     options = {"lattice": lattice, "boundary": boundary, "turn": turn, "max_turn": max_turn, "max_added": max_added}
-    wish = Wish(surface, structure, main, poles, evenness, direction, options=options)
+    request = Request(surface, structure, main, poles, evenness, direction, options=options)
     size = SizePolicy.of([surface], tiles, density, density_tolerance)
-    (((made,), _),) = map_objects([[wish]], size, threads, progress)
+    (((made,), _),) = map_objects([[request]], size, threads, progress)
     if isinstance(made, Map):
         return made
     raise made

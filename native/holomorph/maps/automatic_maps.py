@@ -18,7 +18,7 @@ from ..tiling.tiling import Poles
 from .automatic_structure import AnyStructure
 from .map import Map
 from .map_choice import EVENNESS, Refusal
-from .map_objects import Wish, map_objects
+from .map_objects import Request, map_objects
 from .size import TOLERANCE, SizePolicy
 
 
@@ -65,18 +65,18 @@ def automatic_maps(
         check_list(main, "main")
     check_list(moves, "moves")
     mains = [main] * len(parts) if isinstance(main, str) else main
-    wishes = [
-        wish_of_part(part, structures and structures[k], mains[k], poles, allowed, moves, evenness, direction, options)
-        for k, part in enumerate(parts)
+    requests = [
+        request_of_part(part, structure, wanted, poles, allowed, moves, evenness, direction, options)
+        for part, structure, wanted in zip(parts, structures or [None] * len(parts), mains)
     ]
-    ((made, _),) = map_objects([wishes], SizePolicy.of(parts, tiles, density, density_tolerance), threads, progress)
+    ((made, _),) = map_objects([requests], SizePolicy.of(parts, tiles, density, density_tolerance), threads, progress)
     for found in made:
         if isinstance(found, MemoryError):
             raise found
     return made
 
 
-def wish_of_part(
+def request_of_part(
     part: Surface,
     structure: AnyStructure | None,
     main: str,
@@ -86,8 +86,8 @@ def wish_of_part(
     evenness: float,
     direction: ArrayLike | str | None,
     options: dict[str, Any],
-) -> Wish:
-    """The `Wish` for a part of a mesh, from poles, places and moves in vertices of the mesh as given."""
+) -> Request:
+    """The `Request` for a part of a mesh, from poles, places and moves in vertices of the mesh as given."""
     if not isinstance(poles, (str, numbers.Real)):
         places, is_there = on_part(part, integer(poles, "poles"))
         poles = places[is_there].tolist() or "auto"
@@ -100,4 +100,6 @@ def wish_of_part(
             allowed, poles = None, 0 if isinstance(poles, (str, numbers.Real)) else poles
     places, is_there = on_part(part, integer([vertex for _, vertex in moves], "moves"))
     own = {pole: int(place) for (pole, _), place, has in zip(moves, places, is_there) if has}
-    return Wish(part, structure, main, poles, evenness, direction, options=options | {"allowed": allowed, "moves": own})
+    return Request(
+        part, structure, main, poles, evenness, direction, options=options | {"allowed": allowed, "moves": own}
+    )

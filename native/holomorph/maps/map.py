@@ -13,7 +13,7 @@ from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import Complexes, Integers, Progress, Reals
 from ..core.value import Value
-from ..cutting.island_map import Islands
+from ..cutting.island_layout import Islands
 from ..forms.pole_structure import PoleStructure
 from ..mesh.checks import checked_evenness
 from ..mesh.surface import Surface

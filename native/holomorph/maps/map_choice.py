@@ -8,7 +8,7 @@ import numpy as np
 from .._native import InvalidMesh, SolverError, TopologyError
 from ..core.progress import scaled
 from ..core.value import counted, quoted
-from ..cutting.island_map import Islands, island_map, one_island
+from ..cutting.island_map import HARD, IslandSearch, one_island
 from ..mesh.surface import Surface
 from ..quality.appearance import cost
 from .automatic_structure import AnyStructure, automatic_structure
@@ -40,6 +40,10 @@ UNEVEN, MORE_POLES, MOST_POLES, FEW_TRIANGLES, MANY_TILES = 3.0, 2, 16, 5000, 60
 GOOD, FLAT = 0.8, 0.3
 MOST_SOFT = 0.02  # length of a seam across the smooth over the square root of the area, that is not minded
 
+# The work on a tiling, in millionths of about a second, for each triangle of the level on which poles are placed, and
+# of the part; and what is spent on islands in any case.
+PLACED, LEVEL, ROUNDED, LEAST_WORK = 40, 10_000, 8, 300_000
+
 EVENNESS = 0.5  # what suits textures: squares hardly differ in size, and their shear is not seen
 
 SOLVING = 0.5  # part of the work, for the structure
@@ -55,27 +59,50 @@ def first_map(surface, structure, main, evenness, threads, progress, coefficient
         return Undecided(surface, structure, None, evenness=evenness)
     if main == "balanced":
         return form_map(surface, structure, coefficients, evenness=evenness, progress=progress)
-    flat = _flat_islands(surface, evenness, threads, scaled(progress, 1.0, 1.0))
+    islands, step = FlatIslands(surface, evenness, threads), scaled(progress, 1.0, 1.0)
+    if main == "untiled":
+        return islands.or_else(form_map(surface, structure, why="it has no tiling", evenness=evenness), step)
+    flat = islands.at_once(step)
     if flat and _is_taken_at_once(flat, surface):
         return _map_of(flat, surface, structure)
-    if main == "untiled":
-        return _least_minded(flat, form_map(surface, structure, why="it has no tiling", evenness=evenness))
     balanced = form_map(surface, structure)
     why = _why_it_stays(balanced)
     if why:
         return form_map(surface, structure, why=why, evenness=evenness)
-    return Undecided(surface, structure, balanced, flat, evenness)
+    return Undecided(surface, structure, balanced, islands, evenness)
 
 
-def _flat_islands(surface, evenness, threads, progress):
-    """The flat islands; None where there are none, or they collapse, as where all faces lie on lines."""
-    if surface.vertices is None or surface.area == 0:
-        return None
-    try:
-        found = island_map(surface, evenness=evenness, threads=threads or 0, progress=progress)
-    except REFUSALS:
-        return None  # another map may be made
-    return found if found and math.isfinite(found.cost) else None
+class FlatIslands:
+    """The flat islands of a part, none where there are none, or they collapse, as where all faces lie on lines. They
+    are looked for when they are asked for: on a smooth part they take longer than a tiling, and cost more."""
+
+    def __init__(self, surface, evenness, threads):
+        is_flat = surface.vertices is None or surface.area == 0
+        self._search = None if is_flat else IslandSearch(surface, HARD, evenness, threads or 0)
+
+    @property
+    def known(self):
+        """The best `Islands` so far, None where they were not yet looked for."""
+        return self._search and self._search.known
+
+    def at_once(self, progress):
+        """The `Islands` that may be taken at once, if there are any, or better ones."""
+        flat = self._asked(lambda search: search.at_once(GOOD, progress))
+        if flat is None or cost(flat.quality) <= FLAT:
+            return flat
+        return self._asked(lambda search: search.best(flat.cost, _work(search.surface), progress)) or flat
+
+    def or_else(self, found, progress, work=math.inf):
+        """The `Map` of islands, if they look better than another `Map` and are found by so much work; else that one."""
+        flat = self._asked(lambda search: search.best(found.cost, work, progress))
+        return _map_of(flat, found.surface, found.structure) if flat else found
+
+    def _asked(self, ask):
+        try:
+            found = self._search and ask(self._search)
+        except REFUSALS:
+            return None  # another map may be made
+        return found if found and math.isfinite(found.cost) else None
 
 
 def _is_taken_at_once(flat, surface):
@@ -103,19 +130,19 @@ def _why_it_stays(balanced):
 
 @dataclass(frozen=True)
 class Undecided:
-    """A part that may get a tiling. Its other maps are `balanced`, not evened, and `flat`, None where a tiling is asked
-    for."""
+    """A part that may get a tiling. Its other maps are `balanced`, not evened, and `islands`; None where a tiling is
+    asked for."""
 
     surface: Surface
     structure: AnyStructure
     balanced: Map | None
-    flat: Islands | None = None
+    islands: FlatIslands | None = None
     evenness: float = 0.0
 
     def tiled(self, poles, options, progress):
         """The `Map`, by `options` of `Structure.tile`. On few faces a density is less even than it was expected when
         poles were placed: then more are tried."""
-        made = _least_minded(self.flat, self._tiled_or_balanced(poles, options, progress))
+        made = self._or_islands(self._tiled_or_balanced(poles, options, progress), progress)
         if not (made.tiling and _is_automatic(poles) and self._has_few_poles(made)):
             return made
         try:
@@ -146,25 +173,30 @@ class Undecided:
             reasons.append(f"a tiling {drawback}")
         return form_map(self.surface, self.structure, why=reasons[0], evenness=self.evenness)
 
-    def untiled(self, why, tiling=None):
+    def untiled(self, why, progress, tiling=None):
         """The best `Map` that is not a tiling. A tiling of another size may be scaled to the wanted one, as one island
         with the seams of that tiling."""
-        flat = self.flat or _flat_islands(self.surface, self.evenness, None, None)
-        found = _least_minded(flat, form_map(self.surface, self.structure, why=why, evenness=self.evenness))
+        step = scaled(progress, 1.0, 1.0)
+        islands = self.islands or FlatIslands(self.surface, self.evenness, None)
+        found = islands.or_else(form_map(self.surface, self.structure, why=why, evenness=self.evenness), step)
         if tiling is None or self.surface.vertices is None:
             return found
         one = one_island(self.surface, tiling)
         made = Map(self.surface, self.structure, one.uv, one.quality, np.empty(0), why, islands=one)
         return made if one.cost < found.cost else found
 
-    def stretched(self, made, density, lattice):
+    def stretched(self, made, density, lattice, progress):
         """The `Map` of the tiling of another one, stretched to a density; None where it cannot be, or another map looks
         better."""
         tiling = stretched(made.tiling, density / made.density, lattice)
         if tiling is None or self.balanced and _drawback(tiling, self.balanced.quality):
             return None
         found = self._map(tiling, made.why)
-        return found if _least_minded(self.flat, found) is found else None
+        return found if self._or_islands(found, progress) is found else None
+
+    def _or_islands(self, found, progress):
+        step = scaled(progress, 1.0, 1.0)
+        return self.islands.or_else(found, step, _work(self.surface)) if self.islands else found
 
     def _tiling(self, poles, options, progress):
         return self.structure.tile(poles=poles, surface=self.surface, progress=progress, **options)
@@ -173,9 +205,10 @@ class Undecided:
         return Map(self.surface, self.structure, made.uv, made.quality, np.empty(0), why, made)
 
 
-def _least_minded(flat, found):
-    """The `Map` of flat islands, if there are any that look better than another `Map`; else that one."""
-    return _map_of(flat, found.surface, found.structure) if flat and flat.cost < found.cost else found
+def _work(surface):
+    """What may be spent on islands where there is another map: as much as a tiling takes, in `IslandSearch`'s unit."""
+    count = len(surface.triangles)
+    return LEAST_WORK + PLACED * min(count, LEVEL) + ROUNDED * count
 
 
 def _is_automatic(poles):

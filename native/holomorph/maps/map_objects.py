@@ -31,7 +31,7 @@ Made: TypeAlias = Map | Refusal | MemoryError
 
 
 @dataclass(frozen=True, eq=False)
-class Wish:
+class Request:
     """What is asked for of one connected part, in the part's own vertices.
 
     structure : None to make it, by `automatic_structure`
@@ -79,7 +79,7 @@ class _Sized(NamedTuple):
 
 
 def map_objects(
-    objects: Sequence[Sequence[Wish]], size: SizePolicy, threads: int | None = None, progress: Progress | None = None
+    objects: Sequence[Sequence[Request]], size: SizePolicy, threads: int | None = None, progress: Progress | None = None
 ) -> list[MappedParts]:
     """The maps of the parts of each object, with squares of one size over all of them.
 
@@ -87,8 +87,8 @@ def map_objects(
     on which whole tiles are too few for that, or have no room, gets another map, which `arrangement` scales. Small
     parts are made side by side, and copies of one part once. What has no map, also for want of memory, gets the error.
     """
-    wishes = [wish for parts in objects for wish in parts]
-    made, leader, others = _map_parts(wishes, _alike(objects), size, threads, progress)
+    requests = [request for parts in objects for request in parts]
+    made, leader, others = _map_parts(requests, _alike(objects), size, threads, progress)
     result, first = [], 0
     for parts in objects:
         last = first + len(parts)
@@ -106,28 +106,28 @@ def _plain(value):
     return tuple(map(_plain, value)) if isinstance(value, (tuple, list)) else value
 
 
-def _map_parts(wishes, alike, size, threads, progress):
+def _map_parts(requests, alike, size, threads, progress):
     """([map or error of each part], `_Sized.leader`, `_Sized.size`)"""
-    done = SOLVING if any(wish.structure is None for wish in wishes) else 0.0
-    made = _first_maps(wishes, alike, threads, scaled(progress, 0.0, done))
+    done = SOLVING if any(request.structure is None for request in requests) else 0.0
+    made = _first_maps(requests, alike, threads, scaled(progress, 0.0, done))
     kinds = {Undecided: Sizing, Divided: MixedSizing}
     sizings = {
-        k: kinds[type(found)](found, wishes[k].poles, wishes[k].tiling)
+        k: kinds[type(found)](found, requests[k].poles, requests[k].tiling)
         for k, found in made.items()
         if type(found) in kinds
     }
-    sized, leader, others = _sized(wishes, alike, sizings, size, threads, scaled(progress, done, 1.0))
+    sized, leader, others = _sized(requests, alike, sizings, size, threads, scaled(progress, done, 1.0))
     found = [sized[k] if k in sized else made[copy.first] for k, copy in enumerate(alike)]
     maps = [
-        one if alike[k].first == k or not isinstance(one, Map) else _of_copy(one, wishes[k], alike[k].scale)
+        one if alike[k].first == k or not isinstance(one, Map) else _of_copy(one, requests[k], alike[k].scale)
         for k, one in enumerate(found)
     ]
     return maps, leader, others
 
 
-def _of_copy(found, wish, scale):
+def _of_copy(found, request, scale):
     """The map of a copy of its part."""
-    return found.of_copy(wish.surface, wish.structure, scale)
+    return found.of_copy(request.surface, request.structure, scale)
 
 
 def _alike(objects):
@@ -135,10 +135,10 @@ def _alike(objects):
     the maps that it has beside others. Parts of which something else is asked are not copies. Nor are those that are
     turned about the vertical if u is to run along a vector."""
     result, same = [], {}
-    for wishes in objects:
-        surfaces, first = [wish.surface for wish in wishes], len(result)
-        is_level = all(isinstance(wish.direction, (str, type(None))) for wish in wishes)
-        found, keys = copies(surfaces) if is_level else map(Copy, range(len(wishes))), [wish.key for wish in wishes]
+    for requests in objects:
+        surfaces, keys, first = [one.surface for one in requests], [one.key for one in requests], len(result)
+        is_level = all(isinstance(one.direction, (str, type(None))) for one in requests)
+        found = copies(surfaces) if is_level else map(Copy, range(len(requests)))
         for k, copy in enumerate(found):
             if copy.first != k and keys[copy.first] == keys[k]:
                 known = result[first + copy.first]
@@ -170,32 +170,32 @@ def _or_error(work: Callable[..., Any]) -> Callable[..., Any]:
     return guarded
 
 
-def _first_maps(wishes, alike, threads, progress):
+def _first_maps(requests, alike, threads, progress):
     """{part: result of `first_map`, or its error}, without copies."""
     firsts = [k for k, copy in enumerate(alike) if copy.first == k]
 
     @_or_error
     def work(i, count, step):
-        wish = wishes[firsts[i]]
-        given = wish.surface, wish.structure, wish.main, wish.evenness
-        found = first_map(*given, count, step, wish.coefficients)
-        return divided(found, wish.evenness, count, step) if wish.main == "automatic" else found
+        request = requests[firsts[i]]
+        given = request.surface, request.structure, request.main, request.evenness
+        found = first_map(*given, count, step, request.coefficients)
+        return divided(found, request.evenness, count, step) if request.main == "automatic" else found
 
-    found = side_by_side(work, [len(wishes[k].surface.triangles) for k in firsts], threads, progress)
+    found = side_by_side(work, [len(requests[k].surface.triangles) for k in firsts], threads, progress)
     return dict(zip(firsts, found))
 
 
-def _sized(wishes, alike, sizings, size, threads, progress):
+def _sized(requests, alike, sizings, size, threads, progress):
     """The `_Sized` of parts that may get tilings. The maps of copies are those of the first part."""
     if not sizings:
         return _Sized({}, None, size)
     members = [k for k, copy in enumerate(alike) if copy.first in sizings]
     names = {k: (alike[k].first, round(math.log(alike[k].scale), SCALE_DIGITS)) for k in members}
-    areas, leader = _areas(wishes, names), None
+    areas, leader = _areas(requests, names), None
     density, share, made = size.density, 0.0, {}
     if size.tolerance != 0:
-        leader = _leader(wishes, alike, sizings, members)
-        share = wishes[leader].surface.area / (sum(areas.values()) or 1.0)
+        leader = _leader(requests, alike, sizings, members)
+        share = requests[leader].surface.area / (sum(areas.values()) or 1.0)
         share *= 1.0 if size.tolerance is None else 0.5  # the rest is for another map of this part
         wanted, about = _on_first(density, alike[leader]), _or_error(sizings[alike[leader].first].about)
         found = about(wanted, size.tries, scaled(progress, 0.0, share))
@@ -206,38 +206,38 @@ def _sized(wishes, alike, sizings, size, threads, progress):
             made[names[leader]] = found
     wanted = {names[k]: _on_first(density, alike[k]) for k in reversed(members) if names[k] not in made}
     window = size.window or (None if made else window_around())
-    more, window = _of_one_size(wishes, sizings, wanted, areas, window, threads, scaled(progress, share, 1.0))
+    more, window = _of_one_size(requests, sizings, wanted, areas, window, threads, scaled(progress, share, 1.0))
     others = SizePolicy(density, tolerance=0.0, window=window)
     made |= more
     return _Sized({k: made[names[k]] for k in members}, leader, others)
 
 
-def _areas(wishes, names):
+def _areas(requests, names):
     """{name: total area of the parts with that name}."""
     areas = dict.fromkeys(names.values(), 0.0)
     for k, name in names.items():
-        areas[name] += wishes[k].surface.area
+        areas[name] += requests[k].surface.area
     return areas
 
 
-def _leader(wishes, alike, sizings, members):
+def _leader(requests, alike, sizings, members):
     """The part that says the density of all: the largest, or, where pieces of that may have any density, the largest
     other one, if it is no smaller than `LEADING` of it."""
-    areas = {k: wishes[k].surface.area for k in members}
+    areas = {k: requests[k].surface.area for k in members}
     largest = max(members, key=areas.get)
     whole = [k for k in members if isinstance(sizings[alike[k].first], Sizing)]
     leader = max(whole, key=areas.get, default=largest)
     return leader if areas[leader] >= LEADING * areas[largest] else largest
 
 
-def _of_one_size(wishes, sizings, wanted, areas, window, threads, progress):
+def _of_one_size(requests, sizings, wanted, areas, window, threads, progress):
     """({(part, scale): its map or how it is refused}, the window) for densities by these. One of each part is tried
     before the others: it places the poles for all."""
     leading = list({name[0]: name for name in wanted}.values())
     following = [name for name in wanted if name not in set(leading)]
 
     def done(names, work, start, end):
-        sizes, guarded = [len(wishes[name[0]].surface.triangles) for name in names], _or_error(work)
+        sizes, guarded = [len(requests[name[0]].surface.triangles) for name in names], _or_error(work)
         made = side_by_side(
             lambda i, _threads, step: guarded(names[i], step), sizes, threads, scaled(progress, start, end)
         )

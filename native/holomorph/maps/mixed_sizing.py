@@ -49,7 +49,7 @@ def divided(
     found: Map | Undecided, evenness: float, threads: int | None, progress: Progress | None
 ) -> Map | Undecided | Divided:
     """The result of `first_map` for a part, or a `Divided` of it if pieces may make a better map."""
-    flat = found.islands if isinstance(found, Map) else found.flat
+    flat = found.islands if isinstance(found, Map) else found.islands and found.islands.known
     if not _may_be_divided(found, flat):
         return found
     divisions = []

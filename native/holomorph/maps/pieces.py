@@ -8,7 +8,7 @@ import numpy as np
 from ..core.array_types import Flags, Integers, Reals
 from ..cutting.hard_edges import TIP, bends, curvature, seen
 from ..cutting.island_cuts import edges_between, in_one_orientation
-from ..cutting.island_map import Islands
+from ..cutting.island_layout import Islands
 from ..mesh.cut_open import cut_open
 from ..mesh.edges import edge_keys
 from ..mesh.origin import Origin
@@ -18,6 +18,7 @@ from ..quality.quality import Quality
 from .map_choice import FLAT, MOST_SOFT
 
 REST = -1  # name of polygons that are looked at with others
+SPECK = 0.01  # part of the area: less than that beside a piece does not divide a part
 WORTH = 0.03  # part of the area, from which on a piece is looked at by itself
 SMOOTH = 1.0  # radians of curvature without tips, from which on a piece that is not a tube is more than sheets, cones
 TUBES = 0.5  # part of the area of a part without islands, from which on its tubes are looked at
@@ -57,6 +58,8 @@ def names_of_pieces(surface: Surface, is_hard_edge: Flags) -> Integers:
     names = np.asarray(cut_open(surface, is_hard_edge)._native.face_component)
     a, b, c = np.moveaxis(surface.vertices[surface.triangles], 1, 0)
     areas = np.bincount(names[surface.triangle_faces], np.linalg.norm(np.cross(b - a, c - a), axis=1))
+    if areas.max() > (1 - SPECK) * areas.sum():
+        return np.zeros_like(names)
     return np.where((areas >= WORTH * areas.sum())[names], names, REST)
 
 

@@ -67,20 +67,20 @@ class Sizing:
         tilings, other = tried
         if not tilings:
             is_final = isinstance(other, Map) or self.is_strict
-            return other if is_final else self.undecided.untiled(str(other))
+            return other if is_final else self.undecided.untiled(str(other), progress)
         inside = [made for made in tilings if is_in(window, relative_size(made, density))]
         made = self._moved(nearest(inside or tilings, density), TRIES, progress)
         is_done = inside or not isinstance(made, Map) or made.tiling is None
         return made if is_done else self._fitted(made, density, window, progress)
 
     def _fitted(self, made, density, window, progress):
-        stretched = self.undecided.stretched(made, density, self.options.get("lattice", "square"))
+        stretched = self.undecided.stretched(made, density, self.options.get("lattice", "square"), progress)
         if stretched or self.is_strict:
             return stretched or made
         turned = self._turned(density, progress)
         if turned and is_in(window, relative_size(turned, density)):
             return turned
-        return self.undecided.untiled(TOO_FEW, made.tiling)
+        return self.undecided.untiled(TOO_FEW, progress, made.tiling)
 
     def of_piece(self, density: float, window: Window, progress: Progress | None) -> Map | None:
         """The tiling of a piece of a part whose density over this one is in the window, or for which it is stretched;
@@ -90,7 +90,7 @@ class Sizing:
         made = nearest(tilings, density) if tilings else None
         if made is None or is_in(window, relative_size(made, density)):
             return made
-        stretched = self.undecided.stretched(made, density, self.options.get("lattice", "square"))
+        stretched = self.undecided.stretched(made, density, self.options.get("lattice", "square"), progress)
         return stretched or (made if is_in(window_around(), relative_size(made, density)) else None)
 
     def _turned(self, density, progress):

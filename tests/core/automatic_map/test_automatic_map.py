@@ -141,7 +141,7 @@ def test_a_part_whose_islands_are_refused_gets_another_map(monkeypatch):
     def refuse(*_arguments, **_options):
         raise holomorph.InvalidMesh("all faces have zero area")
 
-    monkeypatch.setattr(automatic, "island_map", refuse)
+    monkeypatch.setattr(automatic.IslandSearch, "best", refuse)
     for wanted in ("automatic", "untiled"):
         assert holomorph.automatic_map(surface_of(cylinder(16, 24)), main=wanted).islands is None
 

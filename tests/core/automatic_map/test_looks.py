@@ -76,7 +76,7 @@ LOOKS = {
     "torus": Looks("tiling", (3, 3), 2.8, 5.0, 1.3, (2.8, 3.6), "Even, slightly sheared"),
     "thick torus": Looks("tiling", (6, 6), 2.7, 8.4, 1.3, (3.3, 4.1), "Even, slightly sheared"),
     "torus with a hole": Looks("tiling", (3, 3), 3.0, 4.4, 1.31, (2.9, 3.6), "Even, slightly sheared"),
-    "limbs": Looks("mixed", (4, 4), 3.3, 8.5, 1.4, (3.8, 4.7), "Even, slightly sheared"),
+    "limbs": Looks("tiling", (6, 6), 2.9, 8.5, 1.4, (4.1, 4.8), "Even, slightly sheared"),
     "spikes": Looks("tiling", (4, 4), 2.6, 5.0, 1.18, (2.8, 3.6), "Even"),
     "ball of n-gons": Looks("tiling", (8, 8), 2.4, 6.6, 1.26, (2.4, 3.1), "Even, slightly sheared"),
     "washer": Looks("mixed", (0, 0), 1 + 1e-6, 1 + 1e-6, 1 + 1e-6, (5.8, 7.2), "Even"),

@@ -6,7 +6,7 @@ import pytest
 from holomorph import Quality, Surface, automatic_map, automatic_maps, automatic_structure
 from holomorph.maps.arrangement import arranged
 from holomorph.maps.map_choice import UNEVEN, Undecided
-from holomorph.maps.map_objects import Wish, map_objects
+from holomorph.maps.map_objects import Request, map_objects
 from holomorph.maps.size import LIKE_SIZE, SizePolicy, best_window, is_in, window_around
 from holomorph.maps.stretched import MOST_STRETCHED, stretched
 from holomorph.quality.distortion import drawn_densities
@@ -111,10 +111,10 @@ def test_what_jumps_both_ways_or_would_be_stretched_too_far_is_not():
 @pytest.mark.parametrize("size", [{}, {"tiles": 300.0}, {"density": 6.0}], ids=["default", "tiles", "density"])
 def test_each_object_alone_gets_the_maps_that_it_has_beside_others(size):
     objects = [[limb(0.5), limb(0.4)], [limb()], [limb(0.8), surface_of(families.geodesic_sphere(3))]]
-    wishes = [[Wish(part) for part in parts] for parts in objects]
-    together = map_objects(wishes, SizePolicy.of([part for parts in objects for part in parts], **size))
+    requests = [[Request(part) for part in parts] for parts in objects]
+    together = map_objects(requests, SizePolicy.of([part for parts in objects for part in parts], **size))
     assert sum(made.is_tiled for found in together for made in found.maps) > 2
-    for own, found in zip(wishes, together):
+    for own, found in zip(requests, together):
         ((alone, _),) = map_objects([own], found.size)
         assert all(np.array_equal(one.uv, other.uv) for one, other in zip(alone, found.maps))
 
@@ -126,6 +126,6 @@ def test_copies_with_poles_elsewhere_are_no_copies():
     middle = len(ball.vertices) // 2
     masks[0, middle : middle + 40] = masks[1, middle + 100 : middle + 140] = True
     assert repr(masks[0]) == repr(masks[1])
-    wishes = [Wish(ball, main="seamless", options={"allowed": mask}) for mask in masks]
-    ((maps, _),) = map_objects([wishes], SizePolicy.of([ball, ball]))
+    requests = [Request(ball, main="seamless", options={"allowed": mask}) for mask in masks]
+    ((maps, _),) = map_objects([requests], SizePolicy.of([ball, ball]))
     assert all(mask[made.poles].all() for mask, made in zip(masks, maps))
