@@ -18,7 +18,6 @@ from .operators import (
     mapping,
     relief,
     stretched,
-    submit,
     texel_operators,
     tools,
 )
@@ -50,7 +49,6 @@ MODULES = (
     overlay,
     tools,
     stretched,
-    submit,
     presets,
     panel,
     shortcuts,

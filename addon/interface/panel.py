@@ -14,7 +14,6 @@ from ..operators import (
     lod,
     relief,
     stretched,
-    submit,
     texel_operators,
     tools,
 )
@@ -113,7 +112,6 @@ class _ToolsPanel(_Panel):
         column.operator(tools.HOLOMORPH_OT_repair.bl_idname)
         column.operator(tools.HOLOMORPH_OT_remove_maps.bl_idname)
         column.operator(assets.HOLOMORPH_OT_assets.bl_idname)
-        submit.draw(column)
         if self.bl_space_type == "VIEW_3D":
             column = self.layout.column(align=True)
             column.operator(compare.HOLOMORPH_OT_compare.bl_idname)

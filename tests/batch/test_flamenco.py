@@ -8,7 +8,7 @@ import pytest
 from batch_runs import BALANCED, outputs, run
 from repository import ROOT
 
-SCRIPT = ROOT / "addon" / "holomorph-uv-maps.js"
+SCRIPT = ROOT / "examples" / "holomorph-uv-maps.js"
 # https://flamenco.blender.org/usage/job-types/
 MANAGER = """
 const author = {

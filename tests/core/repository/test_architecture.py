@@ -284,6 +284,15 @@ def test_addon_imports_go_down():
     assert not wrong
 
 
+def test_the_addon_asks_no_network_and_starts_no_program():
+    """It has no permission for the one, and the only thread is that of its jobs."""
+    forbidden = {"http", "socket", "subprocess", "urllib", "multiprocessing", "threading", "_thread"}
+    found = {
+        identify(path): {name.partition(".")[0] for name in imports(path)} & forbidden for path in python_files(ADDON)
+    }
+    assert {name: words for name, words in found.items() if words} == {"addon/solving/jobs.py": {"threading"}}
+
+
 def test_addon_imports_have_no_circle():
     done = set()
 
