@@ -32,7 +32,7 @@ EVENED = 0.45  # of what is minded of the squares, about
 HOPELESS = 2.0  # times the cost that is wanted at most: cuts to cone points hardly bring it there
 PARTED = 0.1  # of overlaps at most: they may go, or are cut apart
 
-FLATTENING, EVENING = 5, 10  # work for each triangle, in the unit of `IslandSearch.best`
+FLATTENING, EVENING = 8, 15  # work for each triangle, in the unit of `IslandSearch.best`
 
 
 def island_map(

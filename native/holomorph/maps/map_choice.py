@@ -41,8 +41,9 @@ GOOD, FLAT = 0.8, 0.3
 MOST_SOFT = 0.02  # length of a seam across the smooth over the square root of the area, that is not minded
 
 # The work on a tiling, in millionths of about a second, for each triangle of the level on which poles are placed, and
-# of the part; and what is spent on islands in any case.
-PLACED, LEVEL, ROUNDED, LEAST_WORK = 40, 10_000, 8, 300_000
+# of the part; how much of it is spent on islands where there is a tiling, and what is spent on them in any case.
+PLACED, LEVEL, ROUNDED = 40, 10_000, 8
+BUDGET, LEAST_WORK = 0.4, 100_000
 
 EVENNESS = 0.5  # what suits textures: squares hardly differ in size, and their shear is not seen
 
@@ -206,9 +207,9 @@ class Undecided:
 
 
 def _work(surface):
-    """What may be spent on islands where there is another map: as much as a tiling takes, in `IslandSearch`'s unit."""
+    """What may be spent on islands where there is another map, in the unit of `IslandSearch`."""
     count = len(surface.triangles)
-    return LEAST_WORK + PLACED * min(count, LEVEL) + ROUNDED * count
+    return LEAST_WORK + BUDGET * (PLACED * min(count, LEVEL) + ROUNDED * count)
 
 
 def _is_automatic(poles):
