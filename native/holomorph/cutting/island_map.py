@@ -30,6 +30,7 @@ CONES, ROUNDS = 8, 4  # at most: cuts of each piece to cone points in a round, a
 LEAST_SEAMS = 0.8  # of the seams, at least: some pieces fit edge to edge
 EVENED = 0.45  # of what is minded of the squares, about
 HOPELESS = 2.0  # times the cost that is wanted at most: cuts to cone points hardly bring it there
+EVEN = 1e-9  # of what is minded of conformal squares: evening leaves them as they are
 PARTED = 0.1  # of overlaps at most: they may go, or are cut apart
 
 FLATTENING, EVENING = 8, 15  # work for each triangle, in the unit of `IslandSearch.best`
@@ -163,11 +164,11 @@ class IslandSearch:
     def _evened(self, candidate):
         """(`Islands`, UVs of the pieces before they are laid out)"""
         self._left -= EVENING * len(self._surface.triangles)
-        flattened = candidate.flattened
+        flattened, conformal = candidate.flattened, candidate.islands
+        if self._evenness == 0 or _squares(conformal) <= EVEN:
+            return replace(conformal, evenness=self._evenness), flattened.evened(0.0)
         uv = flattened.evened(self._evenness)
-        if self._evenness == 0:
-            return candidate.islands, uv
-        return flattened.laid_out(uv, self._evenness, candidate.islands), uv
+        return flattened.laid_out(uv, self._evenness, conformal), uv
 
     def _candidates(self, cuts, most, rounds):
         """The `_Candidate`s of cuts, and of further ones to cone points."""
@@ -212,7 +213,7 @@ class IslandSearch:
     def _guess(self, candidate):
         """About what it costs when squares are evened, and what overlaps is cut apart."""
         islands = candidate.islands
-        squares = islands.cost - islands.seam_cost - islands.overlap_cost
+        squares = _squares(islands)
         if not math.isfinite(squares):
             return math.inf
         left = EVENED if self._evenness > 0 else 1.0
@@ -228,3 +229,8 @@ class IslandSearch:
         of_corners = {name: getattr(quality, name) for name in kept}
         quality = replace(Quality.of(self.surface._native, uv, self._threads), **of_corners)
         return replace(found, uv=arrays.frozen(uv), quality=quality)
+
+
+def _squares(islands):
+    """What is minded of the squares."""
+    return islands.cost - islands.seam_cost - islands.overlap_cost
