@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -127,6 +127,7 @@ class MixedSizing:
     part: Divided
     poles: Poles
     options: Mapping[str, Any]
+    _rest: dict[bytes, Map] = field(default_factory=dict)
 
     def about(self, density: float, tries: int, progress: Progress | None) -> Map | Refusal:
         """The map in pieces if that costs less, or else the other one. The density of the largest piece is the one near
@@ -208,10 +209,17 @@ class MixedSizing:
         other, evenness = self.part.other, self.part.evenness
         try:
             parts = [one for one in cut_apart(other.surface, names) if names[one.face_index[0]] == REST]
-            rest = [first_map(one, None, "untiled", evenness, self.part.threads, progress) for one in parts]
+            rest = [self._untiled(one, progress) for one in parts]
         except REFUSALS:
             return None
         return mixed_map(other.surface, other.structure, [one.map for one in tiled] + rest, evenness)
+
+    def _untiled(self, piece, progress):
+        """The map of a piece without tiling. Several divisions have the same pieces."""
+        key = piece.face_index.tobytes()
+        if key not in self._rest:
+            self._rest[key] = first_map(piece, None, "untiled", self.part.evenness, self.part.threads, progress)
+        return self._rest[key]
 
     def _turns(self, tiled):
         """The cost of rows that turn, for the whole part, if these pieces are islands."""
