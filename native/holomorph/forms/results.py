@@ -101,21 +101,21 @@ class Structure(Value):
     def tile(
         self,
         tiles: float | None = None,
+        *,
         density: float | None = None,
+        evenness: float = 0.0,
         poles: Poles = "auto",
         lattice: str | ArrayLike = "square",
         direction: ArrayLike | str | None = None,
-        boundary: str = "automatic",
-        max_turn: float = 0.2,
         turn: float | None = None,
+        max_turn: float = 0.2,
+        boundary: str = "automatic",
         max_added: float | None = None,
-        progress: Progress | None = None,
-        *,
-        evenness: float = 0.0,
         size_counts: bool = False,
         allowed: ArrayLike | None = None,
         moves: Mapping[int, int] | None = None,
         surface: Surface | None = None,
+        progress: Progress | None = None,
     ) -> Tiling:
         """A `Tiling`: a map of even density without visible seams, for textures that tile.
 
@@ -127,6 +127,8 @@ class Structure(Value):
         ----------
         tiles : tiles of the texture over the surface, at its median density; default: a number that suits the genus
         density : tiles per unit of area, instead
+        evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Textures
+            look best at about 0.5. Fewer poles are placed for any evenness above 0
         poles : "auto" for none where the density is even without, else as many as it asks for, up to 16; a number; or a
             list of vertices, which stay where they are. Two at least on a closed surface of genus 0
         lattice : "square", "brick" (rows shifted by half), "hex", or a 2 x 2 matrix whose columns are the translations
@@ -135,8 +137,6 @@ class Structure(Value):
             beside it; max_turn : radians by which the rounding may turn it away
         boundary : "automatic", "straight" or "free", see `Tiler`
         max_added : the largest `added_distortion` that is wanted; default any
-        evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Textures
-            look best at about 0.5. Fewer poles are placed for any evenness above 0
         size_counts : whether the number of tiles counts more than a little shear, as where parts are to have one size
         allowed, surface : as in `tiler`
         moves : {index of a pole in the tiling: vertex} that it is moved to after the rounding, see `Tiler.move_poles`
