@@ -9,6 +9,7 @@ from .._native import InvalidMesh, SolverError, TopologyError
 from ..core.progress import scaled
 from ..core.value import counted, quoted
 from ..cutting.island_map import HARD, IslandSearch, one_island
+from ..mesh.checks import checked_evenness
 from ..mesh.surface import Surface
 from ..quality.appearance import cost
 from .automatic_structure import AnyStructure, automatic_structure
@@ -54,6 +55,7 @@ def first_map(surface, structure, main, evenness, threads, progress, coefficient
     """The `Map` of flat islands, or the balanced one, where it stays; `Undecided` where a tiling may take its place."""
     if main not in MAIN_MAPS:
         raise ValueError(f"main is {quoted(main)}; one of {', '.join(MAIN_MAPS)} is needed")
+    evenness = checked_evenness(evenness)
     if structure is None:
         structure = automatic_structure(surface, threads=threads, progress=progress)
     if main == "seamless":
