@@ -81,7 +81,7 @@ MUTATIONS = (
         ROOM + "conformal/certain_bounds.cpp",
         ("dense-unit", "epsilon() / 2", "epsilon() / 20", DENSE),
         ("dense-products", "2 * G.rows() + 2", "0.2 * G.rows() + 0.2", DENSE),
-        ("dense-inverse", "lower.diagonal() -= diagonal_above(2", "lower.diagonal() += diagonal_above(2", DENSE),
+        ("dense-inverse", "2 * X - above_congruent(X, A)", "X", DENSE),
         ("dense-real-parts", "MatrixXd R = (G - below) / 2", "MatrixXd R = (G - below) / 20", DENSE),
         (
             "dense-upper",
