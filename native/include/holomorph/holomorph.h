@@ -24,7 +24,6 @@
 #include "plane/rectangle.h"
 #include "progressive/refinement.h"
 #include "progressive/simplify.h"
-#include "structure/balanced_map.h"
 #include "structure/conformal_structure.h"
 #include "structure/options.h"
 #include "structure/pole_structure.h"

@@ -14,7 +14,6 @@
 #include "conformal/certain_bounds.h"
 #include "multiresolution/paper_forms.h"
 #include "plane/disk_map.h"
-#include "structure/balanced_map.h"
 #include "structure/conformal_structure.h"
 #include "structure/harmonic_solver.h"
 #include "structure/nested_level.h"

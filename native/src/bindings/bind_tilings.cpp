@@ -8,10 +8,10 @@
 #include "bindings/records.h"
 #include "mesh/self_intersections.h"
 #include "tiles/cells.h"
-#include "tiles/corner_fans.h"
 #include "tiles/lines.h"
 #include "tiles/places.h"
 #include "tiles/relief.h"
+#include "tiles/sharp_zones.h"
 #include "tiling/tiling.h"
 
 namespace holomorph::bindings {

@@ -1,10 +1,41 @@
-// Small dense algebra that is right with its rounding: bounds of invariants from a Gram matrix that is not below the
-// exact one.
+// The projected star of harmonic forms, with or without boundary, and small dense algebra that is right with its
+// rounding: bounds of invariants from a Gram matrix that is not below the exact one.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace holomorph::conformal {
+
+/// Computes the geometric mean A # B = A^(1/2) (A^(-1/2) B A^(-1/2))^(1/2) A^(1/2) of positive definite matrices, by
+/// Cholesky and one symmetric eigenproblem. The mean is invariant under congruence, so any root of A will do.
+/// @throws SolverError if a matrix is not positive definite, or too badly conditioned
+Eigen::MatrixXd geometric_mean(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+/// A^-1, symmetric. @pre positive definite
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& A);
+/// (A + A^T) / 2
+Eigen::MatrixXd symmetric(const Eigen::MatrixXd& A);
+
+/// Two families of n harmonic forms that the star exchanges: *h^N_i = sum_j C_ij h^D_j and *h^D_j = sum_i D_ji h^N_i.
+/// The pairing W_ij = int h^N_i ^ h^D_j gives C = G_N W^-T and D = -G_D W^-1 (Gu & Yau 2003,
+/// doi:10.2312/SGP/SGP03/127-137). They are conjugate, C D = -1, if and only if G_N = W G_D^-1 W^T. On a mesh
+///     W G_D^-1 W^T <= G_exact <= G_N
+/// as quadratic forms, because both G are Dirichlet energies of admissible functions. G_N is replaced by the geometric
+/// mean of the two sides, the polar projection of the star of the double. On a closed surface both families are the
+/// same, W is the wedge matrix, and this is the polar projection of C onto C^2 = -1.
+struct ProjectedStar {
+  Eigen::MatrixXd natural_gram;    ///< G_N# = G_N # (W G_D^-1 W^T)
+  Eigen::MatrixXd dirichlet_gram;  ///< G_D# = W^T (G_N#)^-1 W
+  Eigen::MatrixXd star;            ///< C# = G_N# W^-T; D# = -G_D# W^-1 = -(C#)^-1
+  Eigen::MatrixXd lower;           ///< W G_D^-1 W^T, the lower bound of G_N; the upper one is G_N itself
+};
+
+/// @param G_N,G_D n x n Gram matrices. @param W n x n, |det| 1, entries integers. @throws SolverError
+ProjectedStar projected_star(const Eigen::MatrixXd& G_N, const Eigen::MatrixXd& G_D, const Eigen::MatrixXd& W);
+
+/// Omega of a closed surface of genus g from the projected Gram matrix of a canonical basis alpha_1 .. beta_g, 2g x 2g:
+/// Im Omega = (G_bb)^-1, Re Omega = -G_ab (G_bb)^-1.
+Eigen::MatrixXcd period_matrix(const Eigen::MatrixXd& G);
 
 /// Returns a symmetric matrix that is not below T G T^T, as quadratic forms, and above it by rounding alone.
 /// @param G symmetric

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "conformal/certain_bounds.h"
-#include "conformal/projection.h"
 #include "topology/homology.h"
 
 namespace holomorph::conformal {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "forms/harmonic_residuals.h"
+#include "forms/laplacian.h"
 #include "solver/solver_choice.h"
 
 namespace holomorph::forms {

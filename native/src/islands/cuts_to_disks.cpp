@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "mesh/graph_distances.h"
 #include "mesh/half_edges.h"
+#include "mesh/surface_walk.h"
 #include "mesh/union_find.h"
 
 namespace holomorph::islands {

@@ -5,12 +5,33 @@
 #pragma once
 
 #include <atomic>
+#include <compare>
 
 #include "base/page_allocator.h"
 #include "base/workers.h"
-#include "mesh/handles.h"
 
 namespace holomorph::mesh {
+
+/// The index of an element; -1 names none. Each kind of element has a type of its own, so that no handle of one is
+/// taken for one of another.
+template <class Element>
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(int index) : index_(index) {}
+
+  int idx() const { return index_; }
+  bool is_valid() const { return index_ >= 0; }
+  auto operator<=>(const Handle&) const = default;
+
+ private:
+  int index_ = -1;
+};
+
+using VertexHandle = Handle<struct Vertex>;
+using HalfedgeHandle = Handle<struct Halfedge>;
+using EdgeHandle = Handle<struct Edge>;
+using FaceHandle = Handle<struct Face>;
 
 /// Half-edge 2e runs along edge e from its lower to its higher vertex, 2e+1 back. After a flip 2e remains the
 /// direction of values on e. Triangle t's first half-edge is its side 0. One without a face runs along the boundary,

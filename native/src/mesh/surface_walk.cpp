@@ -1,12 +1,15 @@
 #include "mesh/surface_walk.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
 
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {
+
 namespace {
 
 using Complex = std::complex<double>;
@@ -92,6 +95,32 @@ std::array<int, 3> nearest_corners(const Surface& surface, const SurfacePoint& p
             [&](int i, int j) { return std::abs(corner[i] - point.z) < std::abs(corner[j] - point.z); });
   for (int& i : order) i = surface.triangles[point.triangle][i];
   return order;
+}
+
+std::vector<double> graph_distances(const HalfEdges& half_edges, std::span<const double> lengths,
+                                    const std::vector<int>& sources) {
+  using Entry = std::pair<double, int>;
+  std::vector<double> distance(half_edges.n_vertices(), std::numeric_limits<double>::infinity());
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (const int v : sources) {
+    distance[v] = 0;
+    queue.push({0.0, v});
+  }
+  while (!queue.empty()) {
+    const auto [at, v] = queue.top();
+    queue.pop();
+    if (at > distance[v]) continue;
+    const HalfedgeHandle start = half_edges.halfedge_handle(VertexHandle(v));
+    if (!start.is_valid()) continue;
+    HalfedgeHandle h = start;
+    do {
+      const int w = to_vertex(half_edges, h);
+      const double through = at + lengths[edge_of(h)];
+      if (through < distance[w]) queue.push({distance[w] = through, w});
+      h = next(half_edges, opposite(h));
+    } while (h != start);
+  }
+  return distance;
 }
 
 }  // namespace holomorph::mesh

@@ -1,9 +1,10 @@
-// Straight walks over a surface of triangles.
+// Straight walks over a surface, and distances along its edges.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <complex>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -36,5 +37,11 @@ WalkSteps walk(const Surface& surface, const HalfEdges& half_edges, const Sides&
 
 /// The corners' vertices of the point's triangle, the nearest first.
 std::array<int, 3> nearest_corners(const Surface& surface, const SurfacePoint& point);
+
+/// Returns for each vertex the length of the shortest path of edges from the nearest source (Dijkstra), #V; infinite
+/// where there is none.
+/// @param lengths #E. Cost: O(n log n).
+std::vector<double> graph_distances(const HalfEdges& half_edges, std::span<const double> lengths,
+                                    const std::vector<int>& sources);
 
 }  // namespace holomorph::mesh

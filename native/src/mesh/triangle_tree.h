@@ -1,7 +1,9 @@
-// Boxes around the triangles of a surface: which is nearest to a point, and whether a ray meets one.
+// A tree of triangles for the nearest point of a surface, and the plane of symmetry found with it.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -39,5 +41,18 @@ class TriangleTree {
   std::vector<Corners> corners_;  // in that order
   std::vector<Node> nodes_;       // children of node n: 2 n + 1 and 2 n + 2
 };
+
+struct MirrorPlane {
+  Eigen::Vector3d point, normal;  ///< |normal| = 1
+
+  double height(const Eigen::Vector3d& p) const { return normal.dot(p - point); }
+  Eigen::Vector3d image(const Eigen::Vector3d& p) const { return p - 2 * height(p) * normal; }
+};
+
+/// Finds the plane through the centroid in which images of vertices are nearest to the surface. Its normal is an axis
+/// of space, or an axis of inertia of the area. None where an image is farther from the surface than a hundredth of the
+/// root of the area.
+/// @param tree of the surface. @pre the surface has positions. Cost: O(#T)
+std::optional<MirrorPlane> mirror_plane(const Surface& surface, const TriangleTree& tree);
 
 }  // namespace holomorph::mesh

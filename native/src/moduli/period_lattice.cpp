@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/errors.h"
-#include "conformal/projection.h"
+#include "conformal/certain_bounds.h"
 #include "linear/dense.h"
 
 namespace holomorph::moduli {

@@ -8,7 +8,7 @@
 
 #include "base/errors.h"
 #include "base/finite.h"
-#include "forms/harmonic_residuals.h"
+#include "forms/laplacian.h"
 #include "linear/dense.h"
 #include "mesh/components.h"
 #include "mesh/delaunay.h"

@@ -7,8 +7,8 @@
 
 #include "base/errors.h"
 #include "mesh/components.h"
-#include "mesh/graph_distances.h"
 #include "mesh/stars.h"
+#include "mesh/surface_walk.h"
 
 namespace holomorph::structure {
 namespace {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "tiles/height_image.h"
-#include "tiles/relief_sites.h"
+#include "tiles/sharp_zones.h"
 #include "tiles/tile_coordinates.h"
 
 namespace holomorph::tiles {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "mesh/make_surface.h"
-#include "mesh/mirror_plane.h"
+#include "mesh/triangle_tree.h"
 
 namespace holomorph::mesh {
 namespace {

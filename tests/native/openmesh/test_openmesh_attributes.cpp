@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "open_meshes.h"
-#include "structure/balanced_map.h"
+#include "structure/primal_forms.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::openmesh {

@@ -4,9 +4,8 @@
 #include <bit>
 #include <cstdint>
 
-#include "solver/multigrid/sparse_accumulator.h"
-
 namespace holomorph::solver {
+
 namespace {
 
 // A connection is strong from this part of a vertex's largest weight on: across a stretched mesh the error is smooth

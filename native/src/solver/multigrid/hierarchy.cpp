@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "linear/dense.h"
-#include "solver/multigrid/sparse_accumulator.h"
+#include "solver/multigrid/coarsening.h"
 
 namespace holomorph::solver {
 namespace {

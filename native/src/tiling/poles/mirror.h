@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "mesh/mirror_plane.h"
+#include "mesh/triangle_tree.h"
 #include "tiling/greens/pole_basis.h"
 #include "tiling/poles/meromorphic_form.h"
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/errors.h"
-#include "mesh/graph_distances.h"
+#include "mesh/surface_walk.h"
 #include "structure/pole_choice.h"
 #include "tiling/inversion/neighbourhoods.h"
 
