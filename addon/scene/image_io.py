@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pixels of Blender's images."""
 
+from contextlib import ExitStack
+
 import bpy
 import numpy as np
 
@@ -26,13 +28,13 @@ def read_file_values(image):
     reader.check_size(image.name, *image.size)
     if image.source != "FILE" or image.is_dirty:
         return read_pixels(image)
-    copy = image.copy()
-    try:
-        copy.colorspace_settings.name = "Non-Color"
-        copy.alpha_mode = "CHANNEL_PACKED"
-        pixels = read_pixels(copy)
-    finally:
-        bpy.data.images.remove(copy)
+    made = []
+    with ExitStack() as last_first:
+        last_first.callback(bpy.data.batch_remove, made)
+        made.append(image.copy())
+        made[0].colorspace_settings.name = "Non-Color"
+        made[0].alpha_mode = "CHANNEL_PACKED"
+        pixels = read_pixels(made[0])
     return reader.upright(pixels[::-1], reader.orientation(_file_start(image)))[::-1]
 
 
