@@ -33,6 +33,7 @@ HOPELESS = 2.0  # times the cost that is wanted at most: cuts to cone points har
 EVEN = 1e-9  # of what is minded of conformal squares: evening leaves them as they are
 PARTED = 0.1  # of overlaps at most: they may go, or are cut apart
 
+ALIKE = 1.1  # times a bound: islands are not looked for again for a bound so near
 FLATTENING, EVENING = 8, 15  # work for each triangle, in the unit of `IslandSearch.best`
 
 
@@ -106,7 +107,7 @@ class IslandSearch:
         work : in millionths of about a second of one processor"""
         asked = most, work
         is_settled = self.known is not None and self._asked[1] == math.inf and self.known.cost < self._asked[0]
-        if not is_settled and any(new > old for new, old in zip(asked, self._asked)):
+        if not is_settled and any(new > ALIKE * old for new, old in zip(asked, self._asked)):
             self._asked, self._left = asked, work
             self.known = self._search(most, progress) or self.known
         return self.known if self.known is not None and self.known.cost < most else None
