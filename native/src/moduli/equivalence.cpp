@@ -22,6 +22,8 @@ constexpr double kRounding = 1e-9;
 constexpr std::int64_t kReduction = 10;
 // Part of the steps that may be spent on a list of all vectors that are short enough for any row.
 constexpr std::int64_t kListPart = 50;
+// Vectors that are looked through in the time of a step.
+constexpr std::int64_t kLookedUp = 4;
 // Vectors of such a list: all are looked through for each row.
 constexpr std::size_t kMostListed = 20'000;
 
@@ -95,7 +97,7 @@ class Search {
     for (Index i = 0; i < short_.rows(); ++i) {
       if (fits(i)) result.push_back(short_.row(i).cast<std::int64_t>().transpose());
     }
-    steps_left_ -= short_.rows();
+    steps_left_ -= short_.rows() / kLookedUp + 1;
     result_.is_complete &= steps_left_ > 0;
     return result;
   }
