@@ -13,6 +13,7 @@ BOUNDS = CORE + "conformal/test_certified_bounds.py"
 FORMS = CORE + "conformal/test_conformal.py"
 BALLS = CORE + "moduli/test_balls.py"
 LOOKS = CORE + "automatic_map/test_looks.py"
+EYE = CORE + "uv/test_appearance.py"
 PARTS = CORE + "automatic_map/test_parts.py"
 SIZING = CORE + "automatic_map/test_sizing.py"
 EVENED = CORE + "evening/test_evened_forms.py"
@@ -216,8 +217,8 @@ MUTATIONS = (
     )
     | of(
         PACKAGE + "quality/appearance.py",
-        ("seams-free", "SEAM = 0.5 ", "SEAM = 0.05 ", LOOKS),
-        ("shear-free", "SHEAR = 2.0", "SHEAR = 0.2", LOOKS),
+        ("seams-free", "SEAM = 0.5 ", "SEAM = 0.05 ", EYE),
+        ("shear-free", "SHEAR = 2.0", "SHEAR = 0.2", EYE),
     )
     | of(
         PACKAGE + "mesh/copies.py",
