@@ -1,6 +1,7 @@
 """Slivers, polygons without area: each is in the piece of the face at its longest side, whatever cuts the surface."""
 
 import itertools
+from dataclasses import replace
 
 import families
 import numpy as np
@@ -77,6 +78,19 @@ def test_each_is_in_the_piece_at_its_longest_side(name):
             piece[part.face_index] = number
         assert piece[-count:].tolist() == piece[wanted].tolist()
     assert len(islands(surface, everywhere)) == faces - count
+
+
+@pytest.mark.parametrize("far", [0.0, 10.0, 100.0])
+@pytest.mark.parametrize("name", ["cube", "genus 2 block"])
+def test_rounding_to_single_precision_gives_no_area(name, far):
+    """Far from the origin a point between two others is rounded off their line."""
+    count, random = 5, np.random.default_rng(4)
+    mesh = families.with_slivers((MESHES | CLOSED)[name], count, seed=3)
+    turn = np.linalg.qr(random.standard_normal((3, 3)))[0]
+    rounded = np.float32(mesh.vertices @ turn + far * random.uniform(0.5, 1, 3)).astype(float)
+    found = surface_of(replace(mesh, vertices=rounded))._native.sliver_owners()
+    is_own = found == np.arange(len(mesh.offsets) - 1)
+    assert is_own[:-count].all() and not is_own[-count:].any()
 
 
 def _following(mesh):
