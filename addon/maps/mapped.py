@@ -196,10 +196,10 @@ def _part(component, request, made, refusal):
 
 
 def _request(component, options):
-    """The `holomorph.maps.map_objects.Request` for a part. Evening is slow while forms are mixed."""
+    """The `holomorph.maps.request.Request` for a part. Evening is slow while forms are mixed."""
     main, wanted = _main(component, options), options.tiling
     is_slow = main == "balanced" and options.are_mixed and len(component.surface.triangles) > MIXED_EVENED
-    made = native.load().maps.automatic_maps.request_of_part(
+    made = native.load().maps.request.request_of_part(
         component.surface,
         component.structure,
         main,

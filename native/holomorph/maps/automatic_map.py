@@ -11,7 +11,8 @@ from ..tiling.tiling import Poles
 from .automatic_structure import AnyStructure
 from .map import Map
 from .map_choice import EVENNESS
-from .map_objects import Request, map_objects
+from .map_objects import map_objects
+from .request import Request
 from .size import TOLERANCE, SizePolicy
 
 

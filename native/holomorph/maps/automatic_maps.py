@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import numbers
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.array_types import Progress
-from ..core.arrays import integer
 from ..mesh.checks import check_list, check_type
-from ..mesh.given_vertices import on_part
 from ..mesh.surface import Surface
 from ..tiling.tiling import Poles
 from .automatic_structure import AnyStructure
 from .map import Map
 from .map_choice import EVENNESS, Refusal
-from .map_objects import Request, map_objects
+from .map_objects import map_objects
+from .request import request_of_part
 from .size import TOLERANCE, SizePolicy
 
 
@@ -74,32 +71,3 @@ def automatic_maps(
         if isinstance(found, MemoryError):
             raise found
     return made
-
-
-def request_of_part(
-    part: Surface,
-    structure: AnyStructure | None,
-    main: str,
-    poles: Poles,
-    allowed: ArrayLike | None,
-    moves: Sequence[tuple[int, int]],
-    evenness: float,
-    direction: ArrayLike | str | None,
-    options: dict[str, Any],
-) -> Request:
-    """The `Request` for a part of a mesh, from poles, places and moves in vertices of the mesh as given."""
-    if not isinstance(poles, (str, numbers.Real)):
-        places, is_there = on_part(part, integer(poles, "poles"))
-        poles = places[is_there].tolist() or "auto"
-    if allowed is not None:
-        allowed = np.asarray(allowed, bool)
-        if allowed.shape != (part.given_vertex_count,):
-            raise ValueError(f"allowed has the shape {allowed.shape}; ({part.given_vertex_count},) is needed")
-        allowed = allowed[part.vertex_index]
-        if not allowed.any():
-            allowed, poles = None, 0 if isinstance(poles, (str, numbers.Real)) else poles
-    places, is_there = on_part(part, integer([vertex for _, vertex in moves], "moves"))
-    own = {pole: int(place) for (pole, _), place, has in zip(moves, places, is_there) if has}
-    return Request(
-        part, structure, main, poles, evenness, direction, options=options | {"allowed": allowed, "moves": own}
-    )

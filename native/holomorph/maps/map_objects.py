@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from ..core.array_types import Complexes, Progress, Reals
+from ..core.array_types import Progress
 from ..core.progress import scaled
 from ..core.side_by_side import side_by_side
 from ..mesh.copies import Copy, copies
-from ..mesh.surface import Surface
-from ..tiling.tiling import Poles
-from .automatic_structure import AnyStructure
 from .map import Map
-from .map_choice import EVENNESS, REFUSALS, SOLVING, Refusal, Undecided, first_map
+from .map_choice import REFUSALS, SOLVING, Refusal, Undecided, first_map
 from .mixed_sizing import Divided, MixedSizing, divided
+from .request import Request
 from .size import TRIES, SizePolicy, best_window, relative_size, window_around
 from .sizing import Sizing
 
@@ -28,38 +26,6 @@ TRYING = 0.9  # part of the work on tilings, for numbers of tiles
 SCALE_DIGITS = 3  # to which the logarithm of a copy's scale is rounded: parts that differ by less have the same tiles
 
 Made: TypeAlias = Map | Refusal | MemoryError
-
-
-@dataclass(frozen=True, eq=False)
-class Request:
-    """What is asked for of one connected part, in the part's own vertices.
-
-    structure : None to make it, by `automatic_structure`
-    main : as in `automatic_map`
-    coefficients : of a "balanced" map, None for those of the balanced one
-    options : further ones of `Structure.tile`
-    """
-
-    surface: Surface
-    structure: AnyStructure | None = None
-    main: str = "automatic"
-    poles: Poles = "auto"
-    evenness: float = EVENNESS
-    direction: Any = "upright"
-    coefficients: Complexes | Reals | None = None
-    options: Mapping[str, Any] = field(default_factory=dict)
-
-    @property
-    def tiling(self) -> dict[str, Any]:
-        """All options of `Structure.tile` but poles."""
-        return {"direction": self.direction, "evenness": self.evenness, **self.options}
-
-    @property
-    def key(self) -> tuple[Any, ...]:
-        """Equal where the same is asked of two parts. A structure that is given may be of choices on that part."""
-        given = id(self.structure) if self.main == "balanced" and self.structure is not None else None
-        asked = self.main, self.poles, self.evenness, self.direction, self.coefficients, self.options
-        return given, *_plain(asked)
 
 
 class MappedParts(NamedTuple):
@@ -96,14 +62,6 @@ def map_objects(
         result.append(MappedParts(made[first:last], replace(size, window=others.window) if leads else others))
         first = last
     return result
-
-
-def _plain(value):
-    """Can be compared and hashed, where arrays cannot."""
-    if isinstance(value, np.ndarray):
-        return value.shape, value.dtype.str, value.tobytes()
-    value = sorted(value.items()) if isinstance(value, Mapping) else value
-    return tuple(map(_plain, value)) if isinstance(value, (tuple, list)) else value
 
 
 def _map_parts(requests, alike, size, threads, progress):

@@ -6,7 +6,8 @@ import pytest
 from holomorph import Quality, Surface, automatic_map, automatic_maps, automatic_structure
 from holomorph.maps.arrangement import arranged
 from holomorph.maps.map_choice import UNEVEN, Undecided
-from holomorph.maps.map_objects import Request, map_objects
+from holomorph.maps.map_objects import map_objects
+from holomorph.maps.request import Request
 from holomorph.maps.size import LIKE_SIZE, SizePolicy, best_window, is_in, window_around
 from holomorph.maps.stretched import MOST_STRETCHED, stretched
 from holomorph.quality.distortion import drawn_densities
