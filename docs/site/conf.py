@@ -21,10 +21,10 @@ extensions = [
 ]
 nitpicky = True
 # Types of the annotations which have no page here.
-nitpick_ignore_regex = [("py:.*", r"(?!holomorph).*"), ("py:.*", r"holomorph\.(array_types|_native)\..*")]
+nitpick_ignore_regex = [("py:.*", r"(?!holomorph).*"), ("py:.*", r"holomorph\.(core\.array_types|_native)\..*")]
 # Bases, whose members stand with each of the public classes.
-nitpick_ignore_regex += [("py:class", r"holomorph\.(results\.(Structure|Solution)|form_structure\.FormStructure)")]
-nitpick_ignore_regex += [("py:class", r"holomorph\.cut\.AStructure")]  # a type variable
+nitpick_ignore_regex += [("py:class", r"holomorph\.forms\.(results\.Structure|form_structure\.FormStructure)")]
+nitpick_ignore_regex += [("py:class", r"holomorph\.plane\.cut\.AStructure")]  # a type variable
 
 myst_enable_extensions = ["dollarmath", "colon_fence", "attrs_inline"]
 myst_fence_as_directive = ["math"]
