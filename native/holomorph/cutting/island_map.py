@@ -26,7 +26,7 @@ MANY = 1.0  # length of hard edges over the square root of the area, from which 
 FLAT = 2 * math.pi  # radians of curvature, all of it counted positive, up to which a part with several loops is tried
 CONES, ROUNDS = 8, 4  # at most: cuts of each piece to cone points in a round, and rounds
 
-# What remains in the end of what cuts and conformal squares cost, as it was seen on some twenty meshes.
+# What remains in the end of what cuts and conformal squares cost, as it was seen on a dozen meshes.
 LEAST_SEAMS = 0.8  # of the seams, at least: some pieces fit edge to edge
 EVENED = 0.45  # of what is minded of the squares, about
 HOPELESS = 2.0  # times the cost that is wanted at most: cuts to cone points hardly bring it there
@@ -116,8 +116,10 @@ class IslandSearch:
         """Those of least cost but for hard seams, if it is below `most`. Quick: what is `HOPELESS` is not cut to cone
         points."""
         self._hopeless, self._hard_seam = HOPELESS * most, 0.0
-        self.known = self._search(most, progress)
-        self._hopeless, self._hard_seam = math.inf, HARD_SEAM
+        try:
+            self.known = self._search(most, progress)
+        finally:
+            self._hopeless, self._hard_seam = math.inf, HARD_SEAM
         return self.known
 
     def _search(self, most, progress):

@@ -4,8 +4,9 @@ import families
 import holomorph
 import numpy as np
 import pytest
-from holomorph import Surface
-from holomorph.cutting.island_map import island_map
+from holomorph import InvalidMesh, Surface
+from holomorph.cutting.island_layout import Flattened
+from holomorph.cutting.island_map import HARD, IslandSearch, island_map
 from holomorph.mesh.edges import polygon_sides
 from solids import around, bracket, can, cone
 from solved import surface_of
@@ -256,3 +257,31 @@ def test_smooth_parts_keep_their_seamless_maps(name):
     sizes = {"torus": (24, 12), "cylinder": (16, 24), "geodesic_sphere": (6,)}
     made = holomorph.automatic_map(surface_of(getattr(families, name)(*sizes[name])))
     assert made.kind == "tiling" and made.islands is None
+
+
+def test_islands_are_looked_for_as_far_as_they_may_be_worth_it(monkeypatch):
+    """By a bound of their cost, and by work; what is known is not looked for again."""
+    surface, flattened, calls = dome(1.9), Flattened.of, []
+    monkeypatch.setattr(Flattened, "of", lambda *given: calls.append(given) or flattened(*given))
+    wanted = island_map(surface, evenness=0.5)
+    count = len(calls)
+    assert count > 1 and IslandSearch(surface, HARD, 0.5, 0).best(0.5 * wanted.cost) is None
+    assert IslandSearch(surface, HARD, 0.5, 0).best(work=0) is None
+    calls.clear()
+    search = IslandSearch(surface, HARD, 0.5, 0)
+    assert search.best(2 * wanted.cost).cost == pytest.approx(wanted.cost, rel=1e-9) and len(calls) <= count
+    calls.clear()
+    assert search.best(1.5 * wanted.cost) is search.known and not calls
+
+
+def test_a_refusal_leaves_the_weights_of_a_search_as_they_were(monkeypatch):
+    surface = dome(1.9)
+    wanted, search = island_map(surface, evenness=0.5), IslandSearch(surface, HARD, 0.5, 0)
+
+    def refuse(*_given):
+        raise InvalidMesh("all faces have zero area")
+
+    with monkeypatch.context() as patched, pytest.raises(InvalidMesh):
+        patched.setattr(Flattened, "of", refuse)
+        search.at_once(0.1)
+    assert search.best().cost == wanted.cost
