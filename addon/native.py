@@ -136,16 +136,34 @@ def load():
 def forget():
     """Looks again at the next call (after an installation, or at registration)."""
     _load.cache_clear()
+    vars(holomorph).clear()
+
+
+class _Library:
+    """The package, which is loaded when something of it is needed; modules that NumPy may be loaded with import it."""
+
+    def __getattr__(self, name):
+        value = getattr(load(), name)
+        setattr(self, name, value)  # the next time Python itself finds it
+        return value
+
+
+holomorph = _Library()
+
+
+def module(name):
+    """A module of the package that importing the package does not import."""
+    return importlib.import_module(f"{load().__name__}.{name}")
 
 
 def refusals():
     """The exceptions with which a mesh is refused; their sentences are for the user."""
-    return load().Error, MemoryError
+    return holomorph.Error, MemoryError
 
 
 def fault(error):
     """The sentence about an error that nothing foresaw, with a report to send."""
-    return importlib.import_module(f"{load().__name__}.core.unexpected").told(error)
+    return module("core.unexpected").told(error)
 
 
 def sentence(error):

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import native
 from ..maps import packing
+from ..native import holomorph
 from ..scene import uv_maps
 from . import unfolding
 from .options import LEAST_SIDE, MOST_SIDE, USUAL_SIDE
@@ -33,7 +33,7 @@ def make(context, meshes, options):
     """The `Atlas` of `mesh_io.Polygons` whose positions are in metres. @throws ValueError there is no room"""
     joined = packing.joined(meshes)
     islands = unfolding.islands(context, joined, meshes)
-    if not native.load().distortion.length_ratio(joined, islands) > 0:
+    if not holomorph.distortion.length_ratio(joined, islands) > 0:
         raise ValueError("its faces have no area")
     with packing.mesh_of(context, joined) as mesh:
         uv_maps.write_map(mesh, joined, uv_maps.BAKE_MAP, np.zeros((len(joined.corner_vertices), 2), np.float32))
@@ -44,7 +44,7 @@ def make(context, meshes, options):
 
 def _packed(context, mesh, joined, islands, options):
     """((#C, 2) UVs, side of the image, texels for a metre)."""
-    ratio = native.load().distortion.length_ratio
+    ratio = holomorph.distortion.length_ratio
     uv = islands * np.float32(math.sqrt(FILLED / _area(joined, islands)))
     before = ratio(joined, uv)
     _side(options.texels, before)  # refuses at once what no packing changes
@@ -67,7 +67,7 @@ def _packed(context, mesh, joined, islands, options):
 
 
 def _area(polygons, uv):
-    corners, _ = native.load().distortion.fans(polygons.face_offsets)
+    corners, _ = holomorph.distortion.fans(polygons.face_offsets)
     a, b = (uv[corners[:, side]].astype(np.float64) - uv[corners[:, 0]] for side in (1, 2))
     return np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import bpy
 
-from .. import native
+from ..native import holomorph
 from .options import COLOUR, HEIGHT
 
 FIRST_TILE = 1001
@@ -46,7 +46,7 @@ def save(images, contents, folder):
     images, contents : {channel: image}, {channel: bytes of each tile} of each atlas
     """
     place = Path(bpy.path.abspath(folder))
-    with native.load().files.whole_file.folder_beside(place / "baked") as new:
+    with holomorph.files.whole_file.folder_beside(place / "baked") as new:
         for of_atlas, files in zip(images, contents):
             for channel, image in of_atlas.items():
                 for index, content in enumerate(files[channel]):

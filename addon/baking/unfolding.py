@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import native
 from ..maps import packing
+from ..native import holomorph
 from ..scene import mesh_io, uv_maps
 
 MOST_COST = 0.8  # of our islands, see the package's `appearance`: with more, a projection has fewer seams
@@ -36,7 +37,7 @@ def islands(context, joined, meshes):
     is_left = np.isnan(uv).any(axis=1)
     if is_left.any():
         found = _projected(context, joined, piece)
-        ratio = native.load().distortion.length_ratio(joined, found)
+        ratio = holomorph.distortion.length_ratio(joined, found)
         uv[is_left] = found[is_left] / (ratio or 1.0)
     return uv
 
@@ -52,12 +53,12 @@ def _parts(polygons):
 def _flat(part):
     """(#C, 2) islands of a part that do not overlap and look good; None where there are none."""
     try:
-        found = native.load().island_map(part)
+        found = holomorph.island_map(part)
     except native.refusals():
         return None
     if found is None or found.cost > MOST_COST:
         return None
-    return found.uv if found.quality.overlapping_part <= native.load().quality.appearance.ROUNDING else None
+    return found.uv if found.quality.overlapping_part <= holomorph.quality.appearance.ROUNDING else None
 
 
 def _projected(context, joined, piece):
@@ -110,8 +111,8 @@ def _edges(face_offsets, uv):
 
 
 def _overlaps(border):
-    library = native.load()
-    return len(border) > 0 and library.quality.overlap.overlapping_part(border) > library.quality.appearance.ROUNDING
+    quality = holomorph.quality
+    return len(border) > 0 and quality.overlap.overlapping_part(border) > quality.appearance.ROUNDING
 
 
 def _middles(polygons):

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The headless command: makes maps and levels of detail, writes files and the report."""
 
-import importlib
 import signal
 import sys
 import time
@@ -14,6 +13,7 @@ from ..levels import source
 from ..levels.level_objects import Presentation
 from ..levels.levels import LevelOptions
 from ..materials import own
+from ..native import holomorph
 from ..operators.run import Run
 from ..results import report, stored
 from ..writing import transaction
@@ -50,7 +50,7 @@ def _shown(sentence):
     """Without what a terminal acts on, such as in names."""
     if native.problem():
         return sentence
-    return importlib.import_module(f"{native.load().__name__}.commands.console").shown(sentence)
+    return native.module("commands.console").shown(sentence)
 
 
 def _fail(status, error):
@@ -92,7 +92,7 @@ def _check_places(options):
     source = options.mesh or (Path(bpy.data.filepath) if bpy.data.filepath else None)
     written = [options.render, options.report]
     try:
-        native.load().files.whole_file.check_places(source, options.output, written, options.overwrite)
+        holomorph.files.whole_file.check_places(source, options.output, written, options.overwrite)
     except ValueError as error:
         raise UsageError(str(error)) from error
 
@@ -132,7 +132,7 @@ def _add_levels(options, outcome):
 
 def _write_report(options, content):
     if options.report is not None:
-        native.load().files.whole_file.write(options.report, report.as_json(content, indent=1).encode() + b"\n")
+        holomorph.files.whole_file.write(options.report, report.as_json(content, indent=1).encode() + b"\n")
 
 
 def _write_files(options, objects):
@@ -142,7 +142,7 @@ def _write_files(options, objects):
         _save(options.output)
     own = set(bpy.data.objects)
     if options.render is not None:
-        with native.load().files.whole_file.folder_beside(options.render) as folder:
+        with holomorph.files.whole_file.folder_beside(options.render) as folder:
             picture = folder / options.render.name
             studio.render(objects, str(picture), options.resolution, options.samples)
             if not picture.is_file():
@@ -157,7 +157,7 @@ def _write_files(options, objects):
 
 def _save(path):
     """As a copy that is moved: in between, Blender's own way leaves no file of the name."""
-    with native.load().files.whole_file.file_beside(path) as place:
+    with holomorph.files.whole_file.file_beside(path) as place:
         try:
             bpy.ops.wm.save_as_mainfile(filepath=str(place), check_existing=False, compress=True, copy=True)
         except RuntimeError as error:

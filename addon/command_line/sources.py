@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import bpy
 
-from .. import compatibility, native
+from .. import compatibility
+from ..native import holomorph
 from ..scene import gathering, mesh_io, targets
 from ..solving import choices
 from . import exchange
@@ -29,13 +30,13 @@ def collect(options):
             raise UsageError("vertices are chosen on one object: name it with --object")
         bpy.context.view_layer.update()  # the objects' matrices
         return targets.collect(objects, asked)
-    except (ValueError, native.load().Error, exchange.ExchangeError) as error:
+    except (ValueError, holomorph.Error, exchange.ExchangeError) as error:
         raise UsageError(str(error)) from error
 
 
 def _request(options):
     """What is asked of every object; vertices are named for a single one. @throws ValueError"""
-    solvers = native.load().SOLVERS
+    solvers = holomorph.SOLVERS
     if options.solver not in solvers:
         raise UsageError(f"--solver: {options.solver!r} is not one of {', '.join(solvers)}")
     asked = replace(options.choices().request(options), solver=options.solver)
@@ -50,7 +51,7 @@ def _request(options):
 
 def _import_mesh(options):
     """The mesh file as an object, in an otherwise empty scene unless a .blend was opened; and the file's positions."""
-    surface = native.load().Surface.read(str(options.mesh))
+    surface = holomorph.Surface.read(str(options.mesh))
     options.warnings += [f"{options.mesh}: {note}" for note in surface.repairs.notes]
     _empty_scene()
     mesh = mesh_io.new_mesh(options.mesh.stem, surface.vertices, surface.corner_vertices, surface.face_offsets)

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .. import native
 from ..maps import mapped
 from ..maps.options import BALANCED, MapOptions
+from ..native import holomorph
 from ..solving import jobs
 
 SOLVE_PART = 0.5  # share of the whole work, where a map has to be made first
@@ -51,7 +51,6 @@ class LevelsWork(jobs.Work):
         super().__init__(self.progress)
 
     def work(self):
-        holomorph = native.load()
         start = SOLVE_PART if self.needs_map else 0.0
         if self.needs_map:
             solved = jobs.solved(self.task, self.part(0, start))

@@ -2,7 +2,7 @@
 """A UV map carried from one mesh to another by the conformal map between them. No bpy here: it runs in a worker
 thread."""
 
-from .. import native
+from ..native import holomorph
 from ..solving import jobs
 
 MAP_SHARE = 0.6  # part of the work, after the structures
@@ -27,12 +27,12 @@ class CarriedMap(jobs.Work):
         given = first.checked(lambda surface: _structure(surface, self.part(0, half)))
         taking = second.checked(lambda surface: _structure(surface, self.part(half, 2 * half)))
         progress = self.part(2 * half, 1)
-        image = native.load().conformal_map(taking, given, tolerance=self._tolerance, progress=progress)
+        image = holomorph.conformal_map(taking, given, tolerance=self._tolerance, progress=progress)
         self.found = image.equivalence
         self.uv = second.in_order(image.uv(first.in_order(self._given), progress=self.part(1, 1)))
 
 
 def _structure(surface, progress):
     if surface.genus == 0 and surface.boundary_count <= 1:
-        raise native.load().TopologyError(FORMLESS)
-    return native.load().conformal_structure(surface, progress=progress)
+        raise holomorph.TopologyError(FORMLESS)
+    return holomorph.conformal_structure(surface, progress=progress)

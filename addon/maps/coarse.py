@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from .. import native
+from ..native import holomorph
 
 MOST_TIMES = 200  # beyond, the number does not matter
 SIDES = (("the -X side", "the +X side"), ("the front", "the back"), ("the bottom", "the top"))  # of an object
@@ -11,7 +11,7 @@ SIDES = (("the -X side", "the +X side"), ("the front", "the back"), ("the bottom
 
 def places(obj, polygons, density):
     """The `holomorph.coarse_places` of an object as entries of a report, each with a name."""
-    found = native.load().coarse_places(polygons, density)
+    found = holomorph.coarse_places(polygons, density)
     return [{"name": _name(obj, polygons, place.vertex), **vars(place)} for place in found]
 
 

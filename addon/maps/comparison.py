@@ -4,6 +4,7 @@
 from dataclasses import dataclass, replace
 
 from .. import native
+from ..native import holomorph
 from ..solving import jobs
 
 
@@ -26,7 +27,7 @@ class Side:
         """What is made of its surface; a refusal names the object."""
         try:
             return make(self.surface())
-        except native.load().Error as error:
+        except holomorph.Error as error:
             raise type(error)(f"{self.name}: {native.sentence(error)}") from error
 
     def in_order(self, values):
@@ -43,7 +44,7 @@ class Comparison(jobs.Work):
 
     def work(self):
         surfaces = [side.checked(_connected) for side in self._sides]
-        self.found = native.load().conformally_equivalent(*surfaces, progress=self.ask)
+        self.found = holomorph.conformally_equivalent(*surfaces, progress=self.ask)
 
 
 def _connected(surface):

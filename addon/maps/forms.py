@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .. import native
+from ..native import holomorph
 
 SQUARES_LIMIT = 10_000
 
@@ -27,7 +27,7 @@ def coefficients(component, options):
 
 def shape_points(solved):
     """(#V,3) conformal images of the parts that have one, zeros elsewhere; None if no part has one."""
-    found = [(native.load().conformal_image(part.structure), part.surface.vertex_index) for part in solved.done]
+    found = [(holomorph.conformal_image(part.structure), part.surface.vertex_index) for part in solved.done]
     points = np.zeros((len(solved.polygons.vertices), 3))
     for image, own in found:
         if image is not None:
@@ -38,7 +38,6 @@ def shape_points(solved):
 def squares_that_fit(maps, arrangement, across):
     """Squares of a texture per UV unit so that about `across` of them lie along the diagonal of the bounding box of the
     largest part where the density is the median one, at density 1; an even number."""
-    library = native.load().arrangement
-    size = max(library.diagonal(made.surface) for made in maps)
-    unit = library.unit_length(maps, replace(arrangement, density=1.0))
+    size = max(holomorph.arrangement.diagonal(made.surface) for made in maps)
+    unit = holomorph.arrangement.unit_length(maps, replace(arrangement, density=1.0))
     return min(max(2 * round(across * unit / size / 2), 2), SQUARES_LIMIT) if unit > 0 else across

@@ -6,6 +6,7 @@ from dataclasses import astuple, dataclass, replace
 import numpy as np
 
 from .. import native
+from ..native import holomorph
 from ..scene.uv_maps import MAIN_MAP
 from . import forms
 from .options import AUTOMATIC, BALANCED, SEAMLESS, TILING, MapOptions
@@ -68,7 +69,7 @@ class MappedObject:
     def unit_length(self):
         """The length on the surface of a UV unit of the main map, where the density is the median one; 0 for maps
         without area."""
-        return native.load().arrangement.unit_length(self.part_maps, self.options.arrangement)
+        return holomorph.arrangement.unit_length(self.part_maps, self.options.arrangement)
 
     def of_forms(self):
         """The same parts with maps of forms alone."""
@@ -81,13 +82,13 @@ class MappedObject:
         """Yields (name, (#C, 2) float32) for every map, the main one first; parts that lack it are zero there."""
         yield MAIN_MAP, self._main_map() if self.packed is None else self.packed
         count = 0 if self.packed is not None else min(self.solved.form_count, self.options.forms)
-        parts, library = [(one.surface, one.structure) for one in self.solved.done], native.load().arrangement
+        parts = [(one.surface, one.structure) for one in self.solved.done]
         for index in range(count):
-            uv = library.arranged_form(parts, index, self._corners, self.options.arrangement)
+            uv = holomorph.arrangement.arranged_form(parts, index, self._corners, self.options.arrangement)
             yield f"{MAIN_MAP} {index + 1}", uv.astype(np.float32)
 
     def _main_map(self):
-        arranged = native.load().arrangement.arranged(self.part_maps, self._corners, self.options.arrangement)
+        arranged = holomorph.arrangement.arranged(self.part_maps, self._corners, self.options.arrangement)
         return arranged.astype(np.float32)
 
     @property
@@ -112,7 +113,7 @@ def mapped(solved, options, is_equal=False, progress=None):
     """
     keys, count = [_asked(*each) for each in zip(solved, options)], len(solved)
     groups = [list(range(count))] if is_equal else [[k] for k in range(count)]
-    scaled, areas, done, made = native.load().core.progress.scaled, [_area(one) for one in solved], 0.0, []
+    scaled, areas, done, made = holomorph.core.progress.scaled, [_area(one) for one in solved], 0.0, []
     for group in groups:
         share = sum(areas[k] for k in group) / (sum(areas) or 1.0)
         own = [solved[k] for k in group], [options[k] for k in group], [keys[k] for k in group]
@@ -152,7 +153,7 @@ def _of_one_length(made):
     each object has room."""
     found = [one for one in made if one.done]
     maps = [one.part_maps for one in found]
-    per_length = native.load().arrangement.common_length(maps, found[0].options.arrangement) if found else 0.0
+    per_length = holomorph.arrangement.common_length(maps, found[0].options.arrangement) if found else 0.0
     return [replace(one, options=replace(one.options, per_length=per_length)) for one in made]
 
 
@@ -165,7 +166,7 @@ def _main(component, options):
 def _made(solved, options, progress):
     """[(the `MappedPart`s of the `done` components, the size with which they are the same alone)] of each solve.
     Refusals are told. What no tiling fits gets another map, if what is chosen fits anywhere."""
-    holomorph, wanted = native.load(), options[0].tiling
+    wanted = options[0].tiling
     components = [one.done for one in solved]
     requests = [[_request(part, own) for part in parts] for parts, own in zip(components, options)]
     size = wanted.size and holomorph.maps.size.SizePolicy(*wanted.size)
@@ -191,7 +192,7 @@ def _part(component, request, made, refusal):
         return MappedPart(component, skipped=refusal)
     if refusal:
         given = request.surface, request.structure
-        made = native.load().automatic_map(*given, main="untiled", evenness=request.evenness)
+        made = holomorph.automatic_map(*given, main="untiled", evenness=request.evenness)
     return MappedPart(component, made, not_seamless=refusal)
 
 
@@ -199,7 +200,7 @@ def _request(component, options):
     """The `holomorph.maps.request.Request` for a part. Evening is slow while forms are mixed."""
     main, wanted = _main(component, options), options.tiling
     is_slow = main == "balanced" and options.are_mixed and len(component.surface.triangles) > MIXED_EVENED
-    made = native.load().maps.request.request_of_part(
+    made = holomorph.maps.request.request_of_part(
         component.surface,
         component.structure,
         main,

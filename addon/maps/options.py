@@ -3,7 +3,7 @@
 
 from dataclasses import dataclass, replace
 
-from .. import native
+from ..native import holomorph
 
 # What the main map is. TILING: tilings alone, so that parts without one have no map.
 AUTOMATIC, SEAMLESS, BALANCED, ISLANDS, TILING = "AUTOMATIC", "SEAMLESS", "BALANCED", "ISLANDS", "TILING"
@@ -76,4 +76,4 @@ class MapOptions:
     def arrangement(self):
         """The `holomorph.arrangement.Arrangement`."""
         lengths = self.density, self.rotation, self.margin, self.per_length
-        return native.load().arrangement.Arrangement(*lengths, self.tiling.quarters)
+        return holomorph.arrangement.Arrangement(*lengths, self.tiling.quarters)

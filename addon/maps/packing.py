@@ -8,7 +8,8 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from .. import compatibility, native
+from .. import compatibility
+from ..native import holomorph
 from ..scene import mesh_io, uv_maps
 
 MIDDLE = 0.5  # the middle of the UV square
@@ -22,9 +23,9 @@ def packed(context, mapped):
     corners, side_by_side = np.concatenate([part.corner_index for part in parts]), joined(parts)
     with mesh_of(context, side_by_side) as mesh:
         uv_maps.write_map(mesh, side_by_side, uv_maps.MAIN_MAP, shelves[corners])
-        pack(context, native.load().layout.fitting_margin(options.margin, len(parts)))
+        pack(context, holomorph.layout.fitting_margin(options.margin, len(parts)))
         found = uv_maps.read_map(mesh, uv_maps.MAIN_MAP)
-    square = native.load().arrangement.square(mapped.part_maps, options.arrangement)
+    square = holomorph.arrangement.square(mapped.part_maps, options.arrangement)
     filling = square.filling * _length(parts, found) / _length(parts, shelves[corners])
     options = replace(options, per_length=options.per_length or filling)
     result = np.zeros_like(shelves)
@@ -34,7 +35,7 @@ def packed(context, mapped):
 
 def cuts(parts):
     """(#S, 2) vertices of the mesh, of the edges along which these parts of it were cut: two boundaries have them."""
-    ends = np.concatenate([part.vertex_index[native.load().mesh.edges.boundary_edges(part)] for part in parts])
+    ends = np.concatenate([part.vertex_index[holomorph.mesh.edges.boundary_edges(part)] for part in parts])
     rows, count = np.unique(np.sort(ends, axis=1), axis=0, return_counts=True)
     return rows[count > 1]
 
@@ -44,7 +45,7 @@ def _length(parts, uv):
     first, area = 0, 0.0
     for part in parts:
         count = len(part.corner_vertices)
-        area += native.load().frame(part, uv[first : first + count]).area
+        area += holomorph.frame(part, uv[first : first + count]).area
         first += count
     return math.sqrt(area)
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import bpy
 
 from .. import compatibility, native
+from ..native import holomorph
 from ..scene import image_io
 from . import own_nodes
 from .nodes import OURS
@@ -145,7 +146,7 @@ class _Pixels:
 
 @functools.lru_cache(maxsize=16)
 def _periodicity_of(key):
-    return native.load().image_lattice(key.values)
+    return holomorph.image_lattice(key.values)
 
 
 def _periodicity(pixels):

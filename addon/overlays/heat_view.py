@@ -11,7 +11,7 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
-from .. import native
+from ..native import holomorph
 from ..results import heat
 from . import on_screen, scales
 
@@ -83,7 +83,7 @@ def places_and_scale(found, quantity):
 
 def lit_triangles(polygons, places, scale):
     """((3 #T, 3) positions, (3 #T, 4) colours): flat colours, a little darker away from the light."""
-    corners, polygon = native.load().distortion.fans(polygons.face_offsets)
+    corners, polygon = holomorph.distortion.fans(polygons.face_offsets)
     points = polygons.vertices[polygons.corner_vertices[corners]].astype(np.float32)
     normals = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
     lengths = np.linalg.norm(normals, axis=1)

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .. import compatibility, native
+from .. import compatibility
 from ..compatibility import Values
+from ..native import holomorph
 from ..scene import mesh_io
 
 CUT, LEFT_OUT, NO_AREA, TOUCHING, LOOSE, FLIPPED = "CUT", "LEFT_OUT", "NO_AREA", "TOUCHING", "LOOSE", "FLIPPED"
@@ -35,7 +36,6 @@ def find(polygons, uv, kinds):
     """The `Elements` of these kinds; uv : (#C, 2), or None where there is no map."""
     vertices = [_not_finite(polygons)] * (LEFT_OUT in kinds) + [_loose(polygons)] * (LOOSE in kinds)
     edges, faces = [NO_EDGES], [NONE]
-    holomorph = native.load()
     try:
         surface = polygons.surface(strict=False)
     except (holomorph.InvalidMesh, holomorph.TopologyError):  # no face can be mapped
@@ -76,7 +76,7 @@ def _loose(polygons):
 
 def _flipped(face_offsets, uv):
     """Faces that the map turns over beside the others, or leaves without area."""
-    corners, polygon = native.load().distortion.fans(face_offsets)
+    corners, polygon = holomorph.distortion.fans(face_offsets)
     first, second = (uv[corners[:, side]].astype(np.float64) - uv[corners[:, 0]] for side in (1, 2))
     area = np.bincount(polygon, first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0], len(face_offsets) - 1)
     return np.flatnonzero(area <= 0 if area.sum() >= 0 else area >= 0)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Heat maps: the distortion of the active UV map of a mesh, measured and written as attributes of the faces."""
 
-from .. import native
+from ..native import holomorph
 from ..scene import mesh_io, uv_maps
 
 DENSITY, ANGLE = "Holomorphic Density", "Holomorphic Angle"  # attributes
@@ -15,7 +15,7 @@ def measured(mesh, linear):
     """(polygons, the `holomorph.distortion.Distortion` of their active UV map) of a mesh that is not being edited, its
     positions multiplied by the 3x3 matrix `linear`."""
     polygons = mesh_io.read_polygons(mesh, linear)
-    return polygons, native.load().distortion.measure(polygons, active_map(mesh, polygons))
+    return polygons, holomorph.distortion.measure(polygons, active_map(mesh, polygons))
 
 
 def active_map(mesh, polygons):

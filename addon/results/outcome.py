@@ -8,6 +8,7 @@ import numpy as np
 from .. import compatibility, native
 from ..maps import coarse
 from ..materials import material
+from ..native import holomorph
 from ..scene import uv_maps
 from . import report, stored
 
@@ -75,7 +76,7 @@ class Outcome:
         found, whole = stored.verdict(entry), entry["whole"]["text"]
         told = f"{whole}. {found.text}" if whole else found.text
         (self.notes if found.is_fit else self.problems).append(f"{obj.name}: {told}")
-        limit = native.load().quality.verdicts.OVERLAPPING[0]
+        limit = holomorph.quality.verdicts.OVERLAPPING[0]
         overlapping = [
             str(index)
             for index, part in enumerate(entry["components"], 1)
@@ -130,9 +131,9 @@ def with_coarse_places(obj, polygons, entry):
     """The report's entry with the places that the main map leaves coarse, where it is uneven, and how many faces are
     too small in it for the single precision of Blender's UV maps."""
     ratios = [part["main_map"]["density_ratio"] for part in entry["components"] if part["done"]]
-    if all(ratio is not None and ratio <= native.load().UNEVEN[0] for ratio in ratios):
+    if all(ratio is not None and ratio <= holomorph.UNEVEN[0] for ratio in ratios):
         return entry | {"coarse_places": [], "faces_without_area": 0}
-    distortion = native.load().distortion
+    distortion = holomorph.distortion
     found = distortion.measure(polygons, uv_maps.read_corners(obj.data, polygons, entry["maps"][0]["name"]))
     places = coarse.places(obj, polygons, found.density)
     without_area = int(np.count_nonzero(found.angle >= distortion.MOST_ANGLE))

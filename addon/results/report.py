@@ -6,8 +6,8 @@ from dataclasses import asdict
 
 import bpy
 
-from .. import native
 from ..maps.options import TILING
+from ..native import holomorph
 from ..scene import faces, gathering, mesh_io
 
 PROPERTY = "holomorph_report"
@@ -19,7 +19,7 @@ TEXT = "Holomorphic Report"
 
 def object_report(obj, made, written=(), new_seams=0, write_options=None):
     """One object: its maps as written, the options with which they were, and the report of each part."""
-    package, solved = native.load().report, made.solved
+    package, solved = holomorph.report, made.solved
     parts = [_part_report(part) for part in made.parts]
     parts += [package.refused_report(refused) for refused in solved.surface.refused]
     repairs = faces.repairs(solved)
@@ -47,7 +47,7 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
 
 def _part_report(part):
     """The package's report of one `mapped.MappedPart`, and the choice that was not followed on it."""
-    package, component = native.load().report, part.component
+    package, component = holomorph.report, part.component
     entry = package.skipped_report(component.surface, part.skipped) if part.skipped else package.part_report(part.map)
     return entry | ({"not_followed": component.note} if component.note else {})
 
@@ -91,7 +91,7 @@ def store_text(entries):
 
 def run_report(entries):
     return {
-        "holomorph": getattr(native.load(), "__version__", ""),
+        "holomorph": getattr(holomorph, "__version__", ""),
         "blender": bpy.app.version_string,
         "objects": entries,
     }

@@ -9,8 +9,8 @@ import json
 
 import numpy as np
 
-from .. import native
 from ..maps.options import TileOptions
+from ..native import holomorph
 from ..scene import mesh_io
 
 SUMMARISED = 8  # parts that a panel shows
@@ -61,7 +61,7 @@ def as_tuple(value):
 def verdict(entry):
     """The package's `Verdict` on an object or a part in a report; None where there is none."""
     found = entry.get("verdict")
-    return native.load().Verdict(**found) if found else None
+    return holomorph.Verdict(**found) if found else None
 
 
 def whole(entry):

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from .. import native
+from ..native import holomorph
 from ..scene import uv_maps
 from . import heat, report, stored
 
@@ -26,7 +26,7 @@ def measured(target, image, metres):
 
     metres : of a unit of the scene
     """
-    return native.load().distortion.length_ratio(target.polygons, _uv(target)) * image / metres
+    return holomorph.distortion.length_ratio(target.polygons, _uv(target)) * image / metres
 
 
 def scale(target, factor):
@@ -35,7 +35,7 @@ def scale(target, factor):
     middle = (uv.min(axis=0) + uv.max(axis=0)) / 2
     if _is_tiling(target):
         factor = max(1, round(factor))
-        scaled = native.load().arrangement.on_grid(factor * uv.astype(np.float64)).astype(np.float32)
+        scaled = holomorph.arrangement.on_grid(factor * uv.astype(np.float64)).astype(np.float32)
     else:
         scaled = middle + factor * (uv - middle)
     uv_maps.overwrite_map(mesh, target.polygons, mesh.uv_layers.active.name, scaled)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .. import native
+from ..native import holomorph
 from . import mesh_io
 
 
@@ -28,7 +28,7 @@ def border(mesh, polygons):
     """(n, 2) vertices of the edges between these polygons and the others of the mesh."""
     if polygons.faces is None:
         return np.empty((0, 2), np.int64)
-    whole, edges = mesh_io.read_polygons(mesh, np.eye(3)), native.load().mesh.edges
+    whole, edges = mesh_io.read_polygons(mesh, np.eye(3)), holomorph.mesh.edges
     is_own = whole.has_corner_in(polygons.faces)
     sides = edges.polygon_sides(whole)
     keys = edges.edge_keys(sides, len(whole.vertices))

@@ -6,7 +6,7 @@ from contextlib import ExitStack
 import bpy
 import numpy as np
 
-from .. import native
+from ..native import holomorph
 
 EXIF_BYTES = 2**18
 
@@ -24,7 +24,7 @@ def read_file_values(image):
     """`read_pixels` of the values in the image's file, turned as its EXIF data say, not as they are converted for
     rendering: 16 bits and reals in sRGB are, and colours are multiplied by alpha. What was painted or generated has no
     file. @throws ValueError where it is too large"""
-    reader = native.load().files.picture_values
+    reader = holomorph.files.picture_values
     reader.check_size(image.name, *image.size)
     if image.source != "FILE" or image.is_dirty:
         return read_pixels(image)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from .. import native
+from ..native import holomorph
 
 # What the selection is.
 AUTOMATIC, FACES, POLES, RECTANGLE, NONE = "AUTOMATIC", "FACES", "POLES", "RECTANGLE", "NONE"
@@ -117,7 +117,7 @@ def in_part(keywords, part):
     }
     if "cuts" not in keywords:
         return keywords | own
-    edges, count = native.load().mesh.edges, part.given_vertex_count
+    edges, count = holomorph.mesh.edges, part.given_vertex_count
     sides = edges.polygon_sides(part)
     keys, wanted = (edges.edge_keys(ends, count) for ends in (part.vertex_index[sides], keywords["cuts"]))
     return keywords | own | {"cuts": sides[np.isin(keys, wanted)]}
@@ -175,5 +175,5 @@ def _selection(part, choices):
 def _are_corners_of_a_disk(part, vertices):
     if (part.genus, part.boundary_count) != (0, 1) or len(vertices) != CORNERS:
         return False
-    border = part.vertex_index[native.load().mesh.edges.boundary_edges(part)]
+    border = part.vertex_index[holomorph.mesh.edges.boundary_edges(part)]
     return bool(np.isin(vertices, border).all())

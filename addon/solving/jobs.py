@@ -4,6 +4,7 @@
 import threading
 
 from .. import native
+from ..native import holomorph
 from . import cache, solve
 
 
@@ -60,7 +61,7 @@ class Work:
 
     def part(self, begin, end):
         """`ask` for a part of the work."""
-        return native.load().core.progress.scaled(self.ask, begin, end)
+        return holomorph.core.progress.scaled(self.ask, begin, end)
 
 
 def solved(task, ask):

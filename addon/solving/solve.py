@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from .. import native
+from ..native import holomorph
 from . import choices
 
 DOUBLES_OF_TILER = 40  # for each edge: half-edges, weights, the multigrid hierarchy
@@ -101,7 +102,6 @@ def solve(task, progress=None):
     progress(fraction, stage) returning False cancels. Raises `holomorph.Error` for a mesh that cannot be treated as a
     whole, and where an explicit choice of vertices does not fit the part they lie on.
     """
-    holomorph = native.load()
     start = time.perf_counter()
     polygons, surface = task.polygons, task.polygons.surface(strict=False)
     polygons.share(surface)

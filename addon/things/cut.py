@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import native
+from ..native import holomorph
 
 REGULAR = 4  # edges at a vertex inside
 
@@ -23,9 +23,9 @@ class CutMesh:
     @property
     def irregular(self):
         """How many vertices inside have another number of edges than `REGULAR`, or two as in the middle of a side."""
-        sides = native.load().mesh.edges.polygon_sides(self)
+        sides = holomorph.mesh.edges.polygon_sides(self)
         keys, first, count = np.unique(
-            native.load().mesh.edges.edge_keys(sides, len(self.vertices)), return_index=True, return_counts=True
+            holomorph.mesh.edges.edge_keys(sides, len(self.vertices)), return_index=True, return_counts=True
         )
         ends = sides[first]
         edges = np.bincount(ends.ravel(), minlength=len(self.vertices))

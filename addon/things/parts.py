@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .. import native
+from ..native import holomorph
 from ..solving import jobs
 from . import following
 
@@ -31,18 +32,18 @@ class PartsWork(jobs.Work):
         super().__init__(self.progress)
 
     def work(self):
-        library, refusals = native.load(), []
+        refusals = []
         self.parts = components = self.polygons.surface(strict=False).components
         for done, part in enumerate(components):
-            ask = library.core.progress.scaled(
+            ask = holomorph.core.progress.scaled(
                 self.ask, done / len(components) * FOUND, (done + 1) / len(components) * FOUND
             )
             if not ask(0.0, "tiles"):
-                raise library.Cancelled("cancelled during the search for tiles")
+                raise holomorph.Cancelled("cancelled during the search for tiles")
             uv = self.uv if part.is_whole else self.uv[part.corner_index]
             try:
-                tiled = library.TiledSurface(part, uv, self.lattice)
-            except library.TopologyError as error:
+                tiled = holomorph.TiledSurface(part, uv, self.lattice)
+            except holomorph.TopologyError as error:
                 refusals.append(native.sentence(error))
                 self.skip(part)
                 continue

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The surface of an object raised by a picture that repeats in its tiles. No bpy here: it runs in a worker thread."""
 
-import importlib
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from .. import native
+from ..native import holomorph
 from . import parts
 
 AUTOMATIC_DEPTH = 0.1  # in sides of a tile
@@ -22,8 +22,8 @@ def heights_of(pixels, weights):
         heights = np.clip(colours @ weights, 0, 1)
     else:
         channels = np.moveaxis(colours, 2, 0)
-        heights = native.load().files.picture_values.brightness(*channels) if len(channels) == 3 else channels[0]
-    return native.load().tiles.relief.checked_heights(heights)
+        heights = holomorph.files.picture_values.brightness(*channels) if len(channels) == 3 else channels[0]
+    return holomorph.tiles.relief.checked_heights(heights)
 
 
 def turned_over(polygons, uv):
@@ -55,17 +55,17 @@ class RaisingWork(parts.PartsWork):
 
     def skip(self, part):
         self.skipped += 1
-        self.found.append(native.load().tiles.relief.plain(part))
+        self.found.append(holomorph.tiles.relief.plain(part))
 
     def work(self):
         super().work()
         if self.problem:
             return
-        shells = importlib.import_module(f"{native.load().__name__}.tiles.shells")
+        shells = native.module("tiles.shells")
         self.inside_out = len(shells.inside_out(self.parts))
-        made = native.load().tiles.relief.joined(self.found)
+        made = holomorph.tiles.relief.joined(self.found)
         if not self.ask(parts.FOUND, "crossings"):
-            raise native.load().Cancelled("cancelled during the search for crossing triangles")
+            raise holomorph.Cancelled("cancelled during the search for crossing triangles")
         made.safe_depth  # noqa: B018  which is kept
         self.found = [made]
 
@@ -87,14 +87,14 @@ def sentence(relief, millimetres, work):
         told.append(f"inside out: {work.inside_out} closed parts; recalculate their normals")
     rows, columns = work.heights.shape
     if rows != columns:
-        told.append(native.load().tiles.relief.stretched_sentence(columns, rows))
+        told.append(holomorph.tiles.relief.stretched_sentence(columns, rows))
     if relief.is_full:
         told.append(
             f"up to {relief.error * relief.depth * millimetres:.2g} mm off: allow more triangles to follow the picture"
         )
     if len(relief.crossings):
         safe = relief.safe_depth * millimetres
-        least = relief.depth * native.load().tiles.relief.LEAST_PART * millimetres
+        least = relief.depth * holomorph.tiles.relief.LEAST_PART * millimetres
         told_of = f"up to {safe:.2g} mm deep it does not" if safe else f"at {least:.2g} mm it still does"
         told.append(f"it crosses itself in {len(np.unique(relief.crossings)):,} triangles: {told_of}")
     return "; ".join(told)
