@@ -94,7 +94,7 @@ class BakeWork(Work):
 
     def _goes_on(self):
         try:
-            self.ask(*next(self._passes))
+            self.watch(*next(self._passes))
         except StopIteration:
             return False
         except (ValueError, RuntimeError, MemoryError) as error:

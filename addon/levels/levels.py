@@ -8,7 +8,7 @@ import numpy as np
 from ..maps import mapped
 from ..maps.options import BALANCED, MapOptions
 from ..native import holomorph
-from ..solving import jobs
+from ..solving import jobs, solve
 
 SOLVE_PART = 0.5  # share of the whole work, where a map has to be made first
 COLLAPSE_PART = 0.8  # share of the rest; then the maps are transferred
@@ -53,16 +53,16 @@ class LevelsWork(jobs.Work):
     def work(self):
         start = SOLVE_PART if self.needs_map else 0.0
         if self.needs_map:
-            solved = jobs.solved(self.task, self.part(0, start))
+            solved = solve.solve(self.task, self.watch.part(0, start))
             (self.mapped,) = mapped.mapped([solved], [MapOptions(forms=0, main=BALANCED)])
             self._add_main_map()
         surface = self.task.polygons.surface()
         if not self.names:
             return
         collapsed = start + (1 - start) * COLLAPSE_PART
-        mesh = holomorph.ProgressiveMesh(surface, progress=self.part(start, collapsed))
+        mesh = holomorph.ProgressiveMesh(surface, progress=self.watch.part(start, collapsed))
         counts = self.options.counts(len(surface.triangles))
-        if not self.ask(collapsed, "levels of detail"):
+        if not self.watch(collapsed, "levels of detail"):
             raise holomorph.Cancelled("cancelled before the levels of detail")
         made, before = [], len(surface.triangles)
         for level in mesh.levels_of_detail(self.uv, counts):

@@ -24,12 +24,12 @@ class CarriedMap(jobs.Work):
     def work(self):
         half = (1 - MAP_SHARE) / 2
         first, second = self._sides
-        given = first.checked(lambda surface: _structure(surface, self.part(0, half)))
-        taking = second.checked(lambda surface: _structure(surface, self.part(half, 2 * half)))
-        progress = self.part(2 * half, 1)
+        given = first.checked(lambda surface: _structure(surface, self.watch.part(0, half)))
+        taking = second.checked(lambda surface: _structure(surface, self.watch.part(half, 2 * half)))
+        progress = self.watch.part(2 * half, 1)
         image = holomorph.conformal_map(taking, given, tolerance=self._tolerance, progress=progress)
         self.found = image.equivalence
-        self.uv = second.in_order(image.uv(first.in_order(self._given), progress=self.part(1, 1)))
+        self.uv = second.in_order(image.uv(first.in_order(self._given), progress=self.watch.part(1, 1)))
 
 
 def _structure(surface, progress):

@@ -44,7 +44,7 @@ class Comparison(jobs.Work):
 
     def work(self):
         surfaces = [side.checked(_connected) for side in self._sides]
-        self.found = holomorph.conformally_equivalent(*surfaces, progress=self.ask)
+        self.found = holomorph.conformally_equivalent(*surfaces, progress=self.watch)
 
 
 def _connected(surface):

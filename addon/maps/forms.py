@@ -11,7 +11,7 @@ SQUARES_LIMIT = 10_000
 
 
 def coefficients(component, options):
-    """The balanced combination of the forms of a `solve.SolvedComponent` with its dials.
+    """The balanced combination of the forms of a part with its dials.
 
     Real where the balanced one is: a complex factor would bend the straight boundaries.
     """

@@ -20,7 +20,7 @@ MAINS = {AUTOMATIC: "automatic", SEAMLESS: "seamless", TILING: "seamless"}  # as
 class MappedPart:
     """The main map of one part."""
 
-    component: object  # `solve.SolvedComponent`
+    component: object  # `PartStructure` of the package
     map: object | None = None  # the `holomorph.Map`, its vertices as the part counts them
     skipped: str = ""  # why it has no map
     not_seamless: str = ""  # why it has another map than the tiling that was asked for
@@ -123,7 +123,7 @@ def mapped(solved, options, is_equal=False, progress=None):
 
 
 def _area(solved):
-    return sum(component.area for component in solved.done)
+    return sum(component.surface.area for component in solved.done)
 
 
 def _asked(solved, options):
@@ -159,7 +159,7 @@ def _of_one_length(made):
 
 def _main(component, options):
     """The main map that the library is asked for."""
-    is_plain = options.are_plain and not component.is_chosen and component.area > 0
+    is_plain = options.are_plain and not component.is_chosen and component.surface.area > 0
     return MAINS.get(options.main, "balanced") if is_plain or options.main != AUTOMATIC else "balanced"
 
 

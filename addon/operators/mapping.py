@@ -41,9 +41,9 @@ class _MapsOperator(OnMeshes, WorkOperator):
         return self._run.job(progress)
 
     def waiting_faces(self):
-        from ..solving import cache
+        from ..solving import solve
 
-        waiting = [task for task in self._run.tasks if self.may_tile() or cache.find(task) is None]
+        waiting = [task for task in self._run.tasks if self.may_tile() or solve.KEPT.get(task.key) is None]
         return sum(task.polygons.face_count for task in waiting)
 
     def modal_faces(self):
@@ -97,9 +97,9 @@ def _forget_solves(*_arguments):
     """Drops the solves that were kept for the old file: another file has other meshes."""
     if native.problem():
         return
-    from ..solving import cache
+    from ..solving import solve
 
-    cache.clear()
+    solve.KEPT.clear()
 
 
 _register, _unregister = bpy.utils.register_classes_factory(

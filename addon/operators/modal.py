@@ -94,7 +94,7 @@ class WorkOperator(Explained):
         manager = context.window_manager
         manager.progress_begin(0.0, 1.0)
         try:
-            work = self.make_work(lambda fraction, _stage: manager.progress_update(fraction))
+            work = self.make_work(manager.progress_update)
             work.run()
         finally:
             manager.progress_end()
@@ -107,9 +107,9 @@ class WorkOperator(Explained):
             return self.finish(step, work, time_has_passed)
 
     def _show_progress(self, context):
-        percent = round(100 * self._work.fraction)
-        context.workspace.status_text_set(f"Holomorph: {percent} % {self._work.stage}   (ESC cancels)")
-        context.window_manager.progress_update(self._work.fraction)
+        percent = round(100 * self._work.watch.fraction)
+        context.workspace.status_text_set(f"Holomorph: {percent} % {self._work.watch.stage}   (ESC cancels)")
+        context.window_manager.progress_update(self._work.watch.fraction)
 
     def _end_modal(self, context):
         context.window_manager.event_timer_remove(self._timer)

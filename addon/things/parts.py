@@ -35,9 +35,7 @@ class PartsWork(jobs.Work):
         refusals = []
         self.parts = components = self.polygons.surface(strict=False).components
         for done, part in enumerate(components):
-            ask = holomorph.core.progress.scaled(
-                self.ask, done / len(components) * FOUND, (done + 1) / len(components) * FOUND
-            )
+            ask = self.watch.part(done / len(components) * FOUND, (done + 1) / len(components) * FOUND)
             if not ask(0.0, "tiles"):
                 raise holomorph.Cancelled("cancelled during the search for tiles")
             uv = self.uv if part.is_whole else self.uv[part.corner_index]

@@ -64,7 +64,7 @@ class RaisingWork(parts.PartsWork):
         shells = native.module("tiles.shells")
         self.inside_out = len(shells.inside_out(self.parts))
         made = holomorph.tiles.relief.joined(self.found)
-        if not self.ask(parts.FOUND, "crossings"):
+        if not self.watch(parts.FOUND, "crossings"):
             raise holomorph.Cancelled("cancelled during the search for crossing triangles")
         made.safe_depth  # noqa: B018  which is kept
         self.found = [made]

@@ -383,9 +383,8 @@ def test_a_bake_that_fails_leaves_everything_as_it_is(monkeypatch):
 def test_a_bake_that_is_cancelled_leaves_everything_as_it_is(passes):
     found = scene()
     before, said = left(), []
-    work = bake.BakeWork(
-        bpy.context, found, bake.BakeOptions(texels=20.0), lambda fraction, stage: said.append((fraction, stage))
-    )
+    options = bake.BakeOptions(texels=20.0)
+    work = bake.BakeWork(bpy.context, found, options, lambda fraction: said.append((fraction, work.watch.stage)))
     work.start()
     for _ in range(passes):
         assert work.is_running()

@@ -86,16 +86,16 @@ def test_other_tiles_rotations_and_lattices_place_no_poles_again(stages):
 
 
 def test_tilers_count_in_the_size_of_what_is_kept(monkeypatch):
-    cache = module("solving.cache")
+    kept = module("solving.solve").KEPT
     first, second = torus("First"), torus("Second", thickness=0.5)
     for obj in (first, second):
         select(obj)
         tile()
-    solved = [entry for _, entry in cache._entries]
-    assert len(solved) == 2 and all(s.size > 40 * len(s.done[0].structure.edges) for s in solved)
-    monkeypatch.setattr(cache, "SIZE_LIMIT", solved[1].size)
+    solved = kept.values()
+    assert len(solved) == 2 and all(s.nbytes > 8 * 40 * len(s.done[0].structure.edges) for s in solved)
+    monkeypatch.setattr(kept, "limit", solved[1].nbytes)
     tile(tiles=150)
-    assert [entry for _, entry in cache._entries] == solved[1:]
+    assert kept.values() == solved[1:]
 
 
 def test_a_pole_goes_where_it_is_put_and_the_map_stays_seamless(stages):
@@ -138,7 +138,7 @@ def test_the_same_after_everything_was_forgotten():
     move(f"0:{neighbour(obj, poles(obj)[0])}")
     before = uv(obj)
     place = poles(obj)[0]
-    module("solving.cache").clear()
+    module("solving.solve").KEPT.clear()
     move(f"0:{place}")
     assert np.array_equal(uv(obj), before)
 

@@ -297,12 +297,12 @@ def test_what_is_refused_is_left_as_it_is():
 
 
 def test_without_any_map_nothing_is_made(monkeypatch):
-    solve = module("solving.solve")
+    structures = module("solving.choices").structures
 
-    def skipped(_library, _make, part, *_):
-        return solve.SolvedComponent(part, None, "the surface is strange")
+    def skipped(part, *_):
+        return structures.PartStructure(part, None, "the surface is strange")
 
-    monkeypatch.setattr(solve, "_solve_component", skipped)
+    monkeypatch.setattr(structures, "_structure_of_part", skipped)
     obj = torus(**FINE)
     refused("Torus: there is no UV map, and none could be made: the surface is strange")
     obj.data.uv_layers.new(name="Artist")
@@ -343,12 +343,12 @@ def test_only_in_object_mode_with_an_active_mesh():
 def test_cancelling_ends_the_work_with_nothing_made():
     obj = torus(**FINE)
     source = module("levels.source").Source(obj)
-    work = source.work(module("levels.levels").LevelOptions(), lambda _fraction, _stage: work.cancel())
+    work = source.work(module("levels.levels").LevelOptions(), lambda _fraction: work.cancel())
     work.start()
     work.wait()
     assert isinstance(work.error, module("native").load().Cancelled) and not work.levels
     seen = []
-    work = source.work(module("levels.levels").LevelOptions(), lambda fraction, _stage: seen.append(fraction))
+    work = source.work(module("levels.levels").LevelOptions(), seen.append)
     work.run()
     assert len(work.levels) == 4 and seen == sorted(seen)
     assert source.problem(work, time_has_passed=True) == ""

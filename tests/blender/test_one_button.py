@@ -227,7 +227,7 @@ def test_the_redo_panel_makes_nothing_again(monkeypatch):
         raise AssertionError("made again")
 
     monkeypatch.setattr(module("native").load().maps.map_objects, "map_objects", forbidden)
-    monkeypatch.setattr(module("solving.solve"), "solve", forbidden)
+    monkeypatch.setattr(module("solving.solve"), "solved_anew", forbidden)
     assert press(seams=True, texture="SCALES") == {"FINISHED"}
 
 
@@ -235,18 +235,18 @@ def test_cancelling_in_a_tiling_leaves_no_result():
     obj = limb()
     targets, jobs = module("scene.targets"), module("solving.jobs")
     tasks = targets.tasks(targets.collect([obj])) * 2
-    job = jobs.Job(tasks, lambda fraction, _stage: job.cancel() if fraction > 0.2 else None, then(2))
+    job = jobs.Job(tasks, lambda fraction: job.cancel() if fraction > 0.2 else None, then(2))
     job.start()
     job.wait()
     assert all(isinstance(found, module("native").load().Cancelled) for found in job.results)
-    assert not module("solving.cache").find(tasks[0]).maps
+    assert not module("solving.solve").KEPT.get(tasks[0].key).maps
 
 
 def test_progress_grows_over_solve_and_tiling():
     obj, seen = limb(), []
     targets = module("scene.targets")
     tasks = targets.tasks(targets.collect([obj]))
-    module("solving.jobs").Job(tasks, lambda fraction, _stage: seen.append(fraction), then()).run()
+    module("solving.jobs").Job(tasks, seen.append, then()).run()
     assert seen == sorted(seen) and seen[0] >= 0 and 0.5 < seen[-1] <= 1
 
 
@@ -254,7 +254,7 @@ def test_the_same_bits_twice():
     obj = two_parts("Both", limb_arrays(), torus_arrays(thickness=0.1, bulge=0))
     press()
     before = uv(obj)
-    module("solving.cache").clear()
+    module("solving.solve").KEPT.clear()
     press()
     assert np.array_equal(uv(obj), before)
 

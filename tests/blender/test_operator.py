@@ -395,7 +395,7 @@ def test_a_second_run_solves_nothing(monkeypatch):
     def forbidden(*_):
         raise AssertionError("solved again")
 
-    monkeypatch.setattr(solve, "solve", forbidden)
+    monkeypatch.setattr(solve, "solved_anew", forbidden)
     assert run(density=3.0, seams=True) == {"FINISHED"}
 
 

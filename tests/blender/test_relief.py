@@ -186,7 +186,7 @@ def test_it_is_cancelled():
     polygons, uv, lattice = geometry.source(obj)
     pixels = image_io.read_pixels(bpy.data.images["Dots"])
     found = relief.heights_of(pixels, None)
-    work = relief.RaisingWork(polygons, uv, lattice, None, lambda fraction, stage: None, heights=found)
+    work = relief.RaisingWork(polygons, uv, lattice, None, lambda fraction: None, heights=found)
     work.cancel()
     work.run()
     assert type(work.error).__name__ == "Cancelled"

@@ -123,15 +123,15 @@ def test_a_component_is_reported_as_by_the_package():
 
 
 def test_a_skipped_component_has_its_reason(monkeypatch):
-    solve = module("solving.solve")
-    solve_component = solve._solve_component
+    structures = module("solving.choices").structures
+    structure_of_part = structures._structure_of_part
 
-    def without_spheres(library, surface, part, *rest):
+    def without_spheres(part, *rest):
         if part.genus == 0:
-            return solve.SolvedComponent(part, None, reason="too round")
-        return solve_component(library, surface, part, *rest)
+            return structures.PartStructure(part, None, reason="too round")
+        return structure_of_part(part, *rest)
 
-    monkeypatch.setattr(solve, "_solve_component", without_spheres)
+    monkeypatch.setattr(structures, "_structure_of_part", without_spheres)
     obj = two_parts("Two", torus_arrays(), sphere_arrays())
     assert run() == {"FINISHED"}
     (skipped,) = [c for c in stored_report(obj)["components"] if not c["done"]]

@@ -260,7 +260,7 @@ def test_only_what_changed_is_done_again(calls, monkeypatch):
     def forbidden(*_):
         raise AssertionError("solved again")
 
-    monkeypatch.setattr(module("solving.solve"), "solve", forbidden)
+    monkeypatch.setattr(module("solving.solve"), "solved_anew", forbidden)
     for options, count in (({}, 1), ({"texture": "SCALES"}, 1), ({"tiles": 400}, 2), ({"quarters": 1}, 2), ({}, 2)):
         assert tile(**options) == {"FINISHED"}
         assert len(calls) == count
@@ -397,7 +397,7 @@ def test_cancelling_leaves_no_result(calls):
     targets, jobs = module("scene.targets"), module("solving.jobs")
     tasks = targets.tasks(targets.collect(module("scene.gathering").mesh_objects(bpy.context))) * 2
     made = then(2, main="TILING")
-    work = jobs.Job(tasks, lambda fraction, _stage: work.cancel() if fraction > 0.2 else None, made)
+    work = jobs.Job(tasks, lambda fraction: work.cancel() if fraction > 0.2 else None, made)
     work.run()
     assert all(isinstance(found, native.load().Cancelled) for found in work.results)
     assert calls == []
@@ -407,7 +407,7 @@ def test_the_same_bits_twice():
     obj = torus()
     tile()
     before = uv(obj)
-    module("solving.cache").clear()
+    module("solving.solve").KEPT.clear()
     tile()
     assert np.array_equal(uv(obj), before)
 

@@ -30,14 +30,14 @@ def uv():
 
 def note_stages():
     """A list of the stages that the library's jobs go through from now on."""
-    work, noted = addon("solving.jobs").Work, []
-    original = work.ask
+    watch, noted = addon("native").load().core.progress.Watch, []
+    original = watch.__call__
 
     def ask(self, fraction, stage):
         noted.append(stage)
         return original(self, fraction, stage)
 
-    work.ask = ask
+    watch.__call__ = ask
     return noted
 
 

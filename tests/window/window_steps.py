@@ -34,18 +34,18 @@ def note(method):
 def hold_back_the_worker():
     """At the library's next question: however long the window takes to draw, ESC comes before the work is done. Returns
     what lets it go on."""
-    work = importlib.import_module("holomorph_addon.solving.jobs").Work
-    original, gate = work.ask, threading.Event()
+    watch = importlib.import_module("holomorph_addon.native").load().core.progress.Watch
+    original, gate = watch.__call__, threading.Event()
 
     def ask(self, fraction, stage):
         gate.wait()
         return original(self, fraction, stage)
 
     def let_go():
-        work.ask = original
+        watch.__call__ = original
         gate.set()
 
-    work.ask = ask
+    watch.__call__ = ask
     return let_go
 
 

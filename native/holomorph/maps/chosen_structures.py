@@ -1,0 +1,234 @@
+"""The structures of the parts of a mesh, by what is chosen on the mesh: vertices, seams, a method.
+
+Where an explicit choice does not fit a part, the mesh is refused. A choice that is only found there, a selection that
+nothing is said of, or seams, is left out with a note.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .._native import InvalidMesh, SolverError, TopologyError
+from ..core.array_types import Integers, Progress
+from ..core.progress import scaled
+from ..cutting.disk_islands import disk_islands
+from ..mesh.edges import boundary_edges, edge_keys, polygon_sides
+from ..mesh.surface import Surface
+from .automatic_structure import AnyStructure, automatic_structure
+
+AUTOMATIC, POLES, RECTANGLE, NONE = "AUTOMATIC", "POLES", "RECTANGLE", "NONE"  # what chosen vertices are
+ISLANDS = "islands"  # as a boundary: the mesh is cut along its seams into parts, each flattened by itself
+CORNERS = 4
+NO_EDGES = np.empty((0, 2), np.int64)
+UV_START = 0.6  # fraction of the work after which the potentials of the maps are solved for
+NO_ISLANDS = "no seams cut it open: mark some in edit mode (Edge > Mark Seam), or take another main map"
+NO_HARD_EDGES = "no edge is that sharp: choose a smaller angle, mark seams in edit mode, or take another main map"
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What is chosen on a mesh, in vertices of the mesh as given.
+
+    use : what the vertices are: poles, corners of a rectangle, or what suits each part
+    vertices : in the order in which they were chosen
+    residues : one for each pole; none lets them be chosen
+    seams : (#S, 2) vertices
+    boundary : as in `automatic_structure`, or "islands"
+    hard_edges : degrees; islands are cut along sharper edges, too; 0 for the seams alone
+    most_stretch : islands are cut open where lengths change by a larger factor; 0 for no such cuts
+    """
+
+    use: str = NONE
+    vertices: tuple[int, ...] | None = None
+    residues: tuple[complex, ...] = ()
+    seams: Integers = field(default_factory=lambda: NO_EDGES, compare=False)
+    boundary: str = "natural"
+    solver: str = "auto"
+    hard_edges: float = 0.0
+    most_stretch: float = 0.0
+
+    @property
+    def key(self) -> tuple[Any, ...]:
+        """Equal for choices that give the same structures."""
+        chosen = (self.use, self.vertices, self.residues) if self.vertices else ()
+        return (*chosen, self.seams.tobytes(), self.boundary, self.solver, self.hard_edges, self.most_stretch)
+
+    @property
+    def is_explicit(self) -> bool:
+        return self.use in (POLES, RECTANGLE)
+
+    @property
+    def are_islands(self) -> bool:
+        return self.boundary == ISLANDS
+
+
+@dataclass(frozen=True)
+class PartStructure:
+    """A connected part of a mesh.
+
+    structure : with the vertices as the whole mesh counts them, and the corners as the part does; None where it was
+        refused
+    reason : why it was refused; note : which choice was not followed, and why
+    is_chosen : whether a choice was followed of how the map is made, and not just how fast
+    """
+
+    surface: Surface
+    structure: AnyStructure | None
+    reason: str = ""
+    note: str = ""
+    is_chosen: bool = False
+
+    @property
+    def form_count(self) -> int:
+        """How many forms there are to mix."""
+        return 0 if self.structure is None else self.structure.form_count
+
+
+def chosen_structures(
+    vertices: ArrayLike,
+    corner_vertices: ArrayLike,
+    face_offsets: ArrayLike,
+    choices: Choices = Choices(),
+    progress: Progress | None = None,
+) -> tuple[Surface, list[PartStructure]]:
+    """(the surface of these polygons, its parts). Raises for a mesh that cannot be treated as a whole, and where an
+    explicit choice of vertices does not fit the part they lie on."""
+    surface = Surface.from_polygons(vertices, corner_vertices, face_offsets, strict=False)
+    chosen = _on_surface(choices, corner_vertices, surface)
+    parts = _parts(surface, chosen, progress)
+    explicit = np.array(choices.vertices if choices.is_explicit else (), np.int64)
+    stray = explicit[~np.isin(explicit, corner_vertices)]
+    if len(stray):
+        raise InvalidMesh(f"vertex {stray[0]} belongs to no face and cannot be chosen")
+    total, done, made = max(sum(len(part.face_index) for part in parts), 1), 0.0, []
+    for part in parts:
+        share = len(part.face_index) / total
+        made.append(_structure_of_part(part, surface, vertices, chosen, scaled(progress, done, done + share)))
+        done += share
+    return surface, made
+
+
+def _on_surface(choices, corner_vertices, surface):
+    """The same choices where vertices of the mesh were joined: the lowest of them stands for all."""
+    if not len(surface.repairs.joined_vertices):
+        return choices
+    lowest = np.arange(surface.given_vertex_count)
+    lowest[corner_vertices[surface.corner_index]] = surface.vertex_index[surface.corner_vertices]
+    vertices = choices.vertices and tuple(dict.fromkeys(lowest[list(choices.vertices)].tolist()))
+    return replace(choices, vertices=vertices, seams=lowest[choices.seams])
+
+
+def _parts(surface, choices, progress):
+    """The connected components, or the islands between the seams. Seams may be edges of no face that is mapped."""
+    if not choices.are_islands:
+        return surface.components
+    stretch = choices.most_stretch if choices.most_stretch > 1 else None
+    options = {"hard_edges": choices.hard_edges or None, "most_stretch": stretch}
+    islands = disk_islands(surface, choices.seams, strict=False, progress=progress, **options)
+    if any(part.genus == 0 and part.boundary_count == 1 for part in islands):
+        return islands
+    raise TopologyError(NO_HARD_EDGES if choices.hard_edges else NO_ISLANDS)
+
+
+def _structure_of_part(part, surface, vertices, choices, progress):
+    """The `PartStructure` of the most that can be followed of the choices."""
+    note, (*earlier, last) = "", wanted(part, choices)
+    for keywords in earlier:
+        try:
+            return _made(part, surface, vertices, keywords, note, progress)
+        except (InvalidMesh, TopologyError) as error:
+            note = note or str(error)
+    try:
+        return _made(part, surface, vertices, last, note, progress)
+    except (InvalidMesh, TopologyError, SolverError) as error:
+        if choices.is_explicit and _has_selection(last):
+            raise
+        return PartStructure(part, None, reason=str(error), note=note)
+
+
+def wanted(part: Surface, choices: Choices) -> list[dict[str, Any]]:
+    """Keywords of `automatic_structure` for a part, the most wanted first; the later ones leave out what is not
+    explicit. Vertices are those of the mesh as given."""
+    base = {"solver": choices.solver, "boundary": choices.boundary}
+    if choices.are_islands:
+        return [_with_fitting_method(part, base | {"boundary": boundary}) for boundary in ("free", "natural")]
+    seams = choices.seams[np.isin(choices.seams, part.vertex_index).all(axis=1)]
+    found = [base | {"cuts": seams}, base] if len(seams) else [base]
+    selection = _selection(part, choices)
+    if selection:
+        selected = [keywords | selection for keywords in found]
+        found = selected if choices.is_explicit else selected + found
+    return [_with_fitting_method(part, keywords) for keywords in found]
+
+
+def _with_fitting_method(part, keywords):
+    """The double is for the forms of surfaces with boundary, the paper's solver for all parts that have forms: other
+    parts of a mesh are solved as usual."""
+    is_open = part.boundary_count > 0
+    is_formless = keywords["boundary"] == "free" or _has_selection(keywords)
+    has_forms = not is_formless and 2 * part.genus + part.boundary_count - is_open > 0
+    if keywords["boundary"] == "double_cover" and not (is_open and has_forms):
+        keywords = keywords | {"boundary": "natural"}
+    if keywords["solver"] == "paper" and not has_forms:
+        keywords = keywords | {"solver": "auto"}
+    return keywords
+
+
+def _has_selection(keywords: Mapping[str, Any]) -> bool:
+    return not keywords.keys().isdisjoint({"poles", "corners"})
+
+
+def _selection(part, choices):
+    """The selected vertices of this part as poles or corners; nothing where there are none."""
+    if choices.use == NONE or not choices.vertices:
+        return {}
+    selected = np.asarray(choices.vertices, np.int64)
+    is_own = np.isin(selected, part.vertex_index)
+    own = selected[is_own]
+    if len(own) == 0:
+        return {}
+    if choices.use == RECTANGLE or (choices.use == AUTOMATIC and _are_corners_of_a_disk(part, own)):
+        return {"corners": own}
+    if not choices.residues:
+        return {"poles": own}
+    residues = np.asarray(choices.residues, complex)
+    # `log_map` refuses a wrong number of residues.
+    return {"poles": own, "residues": residues[is_own] if len(residues) == len(is_own) else residues}
+
+
+def _are_corners_of_a_disk(part, vertices):
+    if (part.genus, part.boundary_count) != (0, 1) or len(vertices) != CORNERS:
+        return False
+    return bool(np.isin(vertices, part.vertex_index[boundary_edges(part)]).all())
+
+
+def _made(part, surface, vertices, keywords, note, progress):
+    target, names_vertices = part, _has_selection(keywords) or "cuts" in keywords
+    if names_vertices and (np.diff(part.vertex_index) == 0).any():  # it was cut: vertices are several on the part
+        keywords = _in_part(keywords, part)
+    elif names_vertices:  # the part's faces with all vertices of the mesh: then its indices are theirs
+        target = Surface.from_polygons(vertices, part.vertex_index[part.corner_vertices], part.face_offsets)
+    structure = automatic_structure(target, **keywords, progress=scaled(progress, 0.0, UV_START))
+    structure.prepare_uv(scaled(progress, UV_START, 1.0))
+    structure = replace(structure, surface=surface)  # so do its results
+    units = np.eye(structure.form_count, dtype=structure.coefficient_type)
+    structure.uv(units[0] if len(units) else ())  # refused here, where it is not finite
+    is_chosen = names_vertices or keywords["boundary"] != "natural" or keywords["solver"] == "paper"
+    return PartStructure(part, structure, note=note, is_chosen=is_chosen)
+
+
+def _in_part(keywords, part):
+    """Keywords of vertices of the whole mesh as those of the part: the first copy of each, all copies of an edge."""
+    own = {
+        name: np.searchsorted(part.vertex_index, keywords[name]) for name in ("poles", "corners") if name in keywords
+    }
+    if "cuts" in keywords:
+        sides, count = polygon_sides(part), part.given_vertex_count
+        keys, cut = (edge_keys(ends, count) for ends in (part.vertex_index[sides], keywords["cuts"]))
+        own["cuts"] = sides[np.isin(keys, cut)]
+    return keywords | own
