@@ -4,7 +4,7 @@
     blender -b --factory-startup --python-exit-code 1 --python benchmarks/blender_islands.py -- \\
         MESH... [--json FILE]
 
-For each mesh file: mean s1/s2 by area (each triangle 10 at most), 95 : 5 % ratio of the density, part of the UV square
+For each mesh file: angle distortion, size range, part of the UV square
 that is filled, and part of the filled region that is covered twice, of Smart UV Project, Unwrap by each method that
 this Blender has, and Holomorph's main map *Islands*. All are packed with the same margin, Blender's with rotation and
 with equal texel density.
@@ -66,8 +66,8 @@ def measured(holomorph, surface, obj):
     area = np.abs(((z[:, 1] - z[:, 0]).conj() * (z[:, 2] - z[:, 0])).imag / 2).sum()
     sides = np.stack([z, np.roll(z, -1, axis=1)], axis=-1).reshape(-1, 2)  # those inside cancel
     return {
-        "s1/s2": quality.capped_mean_angle,
-        "95:5": quality.density_ratio,
+        "angle distortion": quality.mean_angle,
+        "size range": quality.size_range,
         "flipped": quality.flipped_part,
         "filled": float(area),
         "twice": overlapping_part(sides),
@@ -91,14 +91,14 @@ def compare(holomorph, path):
 
 
 def table(rows):
-    """In Markdown: s1/s2 and 95:5 of each method, then how much is filled."""
+    """In Markdown: angle distortion and size range of each method, then how much is filled."""
     names = [name for name in ("SMART", *METHODS, "ISLANDS") if name in rows[0]]
-    heads = [f"{what} {name.title().replace('_', ' ')}" for what in ("s1/s2", "95:5", "filled") for name in names]
+    figures = {"angle distortion": ".3f", "size range": ".3g", "filled": ".0%"}
+    heads = [f"{what} {name.title().replace('_', ' ')}" for what in figures for name in names]
     yield " | ".join(["", "mesh", *heads, ""]).strip()
     yield "|---" * (len(heads) + 1) + "|"
     for row in rows:
-        cells = [f"{row[name][what]:{form}}" for what, form in (("s1/s2", ".3f"), ("95:5", ".3g"), ("filled", ".0%"))
-                 for name in names]  # fmt: skip
+        cells = [f"{row[name][what]:{form}}" for what, form in figures.items() for name in names]
         yield " | ".join(["", row["mesh"], *cells, ""]).strip()
 
 

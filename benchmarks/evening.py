@@ -92,7 +92,7 @@ class Case:
         quality = Quality.of(self.surface._native, uv.reshape(-1, 2), 0)
         low, few, most, high = quantiles(quality.area, quality._weights, (0.01, 0.05, 0.95, 0.99))
         seams = self._seam_length(uv if family == "seamless" else uv / self.scale)
-        shear, flipped = quality.capped_mean_angle, quality.flipped_part
+        shear, flipped = quality.mean_angle, quality.flipped_part
         return Row(family, name, most / few, high / low, shear, flipped, seams, seconds)
 
     def _seam_length(self, uv):

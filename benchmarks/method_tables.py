@@ -106,8 +106,8 @@ def tilings():
         seconds = time.process_time() - begin
         quality = made.quality
         low, high = holomorph.distortion.quantiles(quality.area, quality._weights, (0.01, 0.99))
-        even = structure.tile(evenness=1, direction="upright").density_ratio
-        figures = f"{made.density_ratio:.1f} | {high / low:.1f} | {quality.capped_mean_angle:.2f} | {even:.1f}"
+        even = structure.tile(evenness=1, direction="upright").quality.density_ratio
+        figures = f"{quality.density_ratio:.1f} | {high / low:.1f} | {quality.mean_angle:.2f} | {even:.1f}"
         print(f"{file} | {len(structure.surface.triangles)} | {len(made.poles)} | {figures} | {seconds:.1f}")
 
 
@@ -120,7 +120,7 @@ def mirrors():
         found = []
         for evenness in (0, 0.5):
             made = [holomorph.automatic_structure(part).tile(poles=16, evenness=evenness) for part in parts]
-            found += [f"{tiling.density_ratio:.1f}" for tiling in made]
+            found += [f"{tiling.quality.density_ratio:.1f}" for tiling in made]
         print(f"{file} | {' | '.join(found)}")
 
 

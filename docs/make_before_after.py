@@ -102,11 +102,11 @@ def part_count(count, first, second):
 
 
 def figures(points, polygons, uv):
-    """(density ratio, islands, length of visible seams)"""
+    """(size range, islands, length of visible seams)"""
     corners, offsets = polygons.corner_vertices, polygons.face_offsets
     mesh = SimpleNamespace(vertices=points, corner_vertices=corners, face_offsets=offsets)
     found = module("native").load().distortion.measure(mesh, uv)
-    return found.density_ratio, *breaks(points, polygons, uv)
+    return found.size_range, *breaks(points, polygons, uv)
 
 
 def slim(obj, points, polygons, stretch):
@@ -155,10 +155,10 @@ def show(obj, polygons, uv):
 
 
 def row(name, parts, found):
-    """A row of the table in docs/tiling.md: poles, islands of Smart UV, then 95:5 and seams of the compared maps."""
+    """A row of the table in docs/tiling.md: poles, islands of Smart UV, then size ranges and seams of all maps."""
     poles = sum(len(part["tiling"]["poles"]) for part in parts)
-    ratios, islands, seams = zip(*(found[kind] for kind in COMPARED))
-    cells = [f"{figure:.1f}" for figure in ratios + seams]
+    sizes, islands, seams = zip(*(found[kind] for kind in COMPARED))
+    cells = [f"{size:.2f}" for size in sizes] + [f"{length:.1f}" for length in seams]
     return f"| {name} | {poles} | {islands[0]} | {' | '.join(cells)} |"
 
 

@@ -203,7 +203,7 @@ MUTATIONS = (
     | of(
         PACKAGE + "quality/verdicts.py",
         ("unseen", "UNSEEN = 0.3", "UNSEEN = 0.6", EVENED),
-        ("same-size", "SAME_SIZE = 1.1 ", "SAME_SIZE = 1.2 ", VERDICT),
+        ("same-size", "SAME_SIZE = 1.049 ", "SAME_SIZE = 1.095 ", VERDICT),
         ("worst-part", "ranks.max() > rank", "ranks.min() > rank", VERDICT),
     )
     | of(
@@ -212,7 +212,7 @@ MUTATIONS = (
     )
     | of(
         PACKAGE + "maps/map_choice.py",
-        ("even", "EVEN = 2.0", "EVEN = 4.0", LOOKS),
+        ("even", "EVEN = 1.41", "EVEN = 2.0", LOOKS),
         ("good-islands", "GOOD, FLAT = 0.8, 0.3", "GOOD, FLAT = 8.0, 0.3", LOOKS),
     )
     | of(

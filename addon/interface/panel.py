@@ -139,7 +139,7 @@ def _draw_modifiers(layout, context, obj):
 def _draw_overlays(layout, context):
     column = layout.column(align=True)
     column.label(text="Heat map of the active UV map")
-    column.row(align=True).prop(context.window_manager, overlay.HEAT, expand=True)
+    column.prop(context.window_manager, overlay.HEAT, expand=True)
     column.operator(tools.HOLOMORPH_OT_heat.bl_idname, text="Store as Face Attributes")
     row = layout.row(align=True)
     row.prop(context.window_manager, overlay.MARKS, toggle=True)

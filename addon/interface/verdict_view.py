@@ -63,10 +63,10 @@ def read(text):
 def numbers(entry):
     """(name, value) of what is measured over the whole object, and the sums of what is counted."""
     measured, whole = [part["main_map"] for part in entry["components"] if part["done"]], entry["whole"]
-    size = math.inf if whole["density_ratio"] is None else math.sqrt(whole["density_ratio"])
+    size = math.inf if whole["size_range"] is None else whole["size_range"]
     return [
         ("Size range", f"{size:.3g} : 1" if size < 1000 else "1000+"),
-        ("Stretch", f"{whole['capped_mean_angle']:.2f} : 1"),
+        ("Angle distortion", f"{whole['mean_angle']:.2f} : 1"),
         ("Flipped triangles", str(sum(one["flipped_triangles"] for one in measured))),
         ("Collapsed triangles", str(sum(one["collapsed_triangles"] for one in measured))),
     ]

@@ -158,8 +158,8 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
     def _said(self):
         done = [part.tiling for part in self._session.mapped.tiled]
         added = max(made.added_distortion for made in done)
-        ratio = max(made.density_ratio for made in done)
-        return f"stretch added by whole tiles: {added:.4f}, density 95 : 5 % = {ratio:.3g}"
+        size = max(made.size_range for made in done)
+        return f"angle distortion added by whole tiles: {added:.4f}, size range {size:.3g}"
 
     def _keep(self, context):
         """Waits for the moves that were asked for last, and keeps them."""

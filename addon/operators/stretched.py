@@ -25,8 +25,8 @@ class HOLOMORPH_OT_select_stretched(AtOnce, bpy.types.Operator):
         min=1.0,
         soft_max=10.0,
     )
-    shear: FloatProperty(
-        name="Shear",
+    angle: FloatProperty(
+        name="Angle Distortion",
         description="Faces whose squares are longer than wide by this factor",
         default=2.0,
         min=1.0,
@@ -35,7 +35,7 @@ class HOLOMORPH_OT_select_stretched(AtOnce, bpy.types.Operator):
 
     def draw(self, _context):
         self.layout.prop(self, "size")
-        self.layout.prop(self, "shear")
+        self.layout.prop(self, "angle")
 
     def read(self, context, objects):
         self._is_editing = context.mode == "EDIT_MESH"
@@ -59,7 +59,7 @@ class HOLOMORPH_OT_select_stretched(AtOnce, bpy.types.Operator):
         from ..results import bad, heat
 
         _, distortion = heat.measured(obj.data, obj.matrix_world.to_3x3())
-        elements = bad.stretched(distortion, 2 * math.log2(self.size), self.shear)
+        elements = bad.stretched(distortion, 2 * math.log2(self.size), self.angle)
         if elements:
             self.report({"INFO"}, f"{obj.name}: {elements}")
         return elements

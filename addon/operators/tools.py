@@ -76,8 +76,8 @@ class HOLOMORPH_OT_heat(AtOnce, bpy.types.Operator):
         for obj in objects:
             found = heat.write(obj)
             name = obj.data.uv_layers.active.name
-            density, angle = f"95 : 5 % of density {found.density_text}", f"mean angle {found.mean_angle:.4f}"
-            self.report({"INFO"}, f"{obj.name}, {name}: {density}, {angle}")
+            size, angle = f"size range {found.size_text}", f"angle distortion {found.mean_angle:.4f}"
+            self.report({"INFO"}, f"{obj.name}, {name}: {size}, {angle}")
         return bool(objects)
 
 

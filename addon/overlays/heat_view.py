@@ -113,5 +113,5 @@ def draw_legend(context, objects, quantity):
 
 def _title(view, quantity):
     if quantity == "DENSITY":
-        return f"{view.map_name}: texture density, 95 : 5 % = {view.found.density_text}"
-    return f"{view.map_name}: angle distortion s1 / s2, mean {view.found.mean_angle:.4f}"
+        return f"{view.map_name}: density of the texture, size range {view.found.size_text}"
+    return f"{view.map_name}: angle distortion {view.found.mean_angle:.4f}"

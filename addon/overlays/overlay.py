@@ -15,7 +15,7 @@ HEAT, MARKS = "holomorphic_heat", "holomorphic_marks"  # properties of the windo
 QUANTITIES = (
     ("NONE", "Off", "Show no heat map"),
     ("DENSITY", "Density", "Show where the texture is denser or coarser than the median, by UV area"),
-    ("ANGLE", "Angle", "Show where squares are sheared or stretched: s1 / s2, 1 where they stay squares"),
+    ("ANGLE", "Angle Distortion", "Show where squares become rhombi or rectangles: s1 / s2, 1 where they stay squares"),
 )
 
 _handles = []

@@ -51,10 +51,10 @@ def find(polygons, uv, kinds):
     return Elements(np.concatenate([NONE, *vertices]), np.concatenate(edges), np.unique(np.concatenate(faces)))
 
 
-def stretched(distortion, octaves, shear):
+def stretched(distortion, octaves, angle):
     """The faces of a `holomorph.distortion.Distortion` with a density more than `octaves` from the median, or with
-    s1 / s2 above `shear`."""
-    return Elements(faces=np.flatnonzero((np.abs(distortion.density) > octaves) | (distortion.angle > shear)))
+    s1 / s2 above `angle`."""
+    return Elements(faces=np.flatnonzero((np.abs(distortion.density) > octaves) | (distortion.angle > angle)))
 
 
 def _not_finite(polygons):

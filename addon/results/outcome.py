@@ -130,11 +130,11 @@ def _modifier_notes(obj, solved):
 def with_coarse_places(obj, polygons, entry):
     """The report's entry with the places that the main map leaves coarse, where it is uneven, and how many faces are
     too small in it for the single precision of Blender's UV maps."""
-    ratios = [part["main_map"]["density_ratio"] for part in entry["components"] if part["done"]]
+    ratios = [part["main_map"]["size_range"] for part in entry["components"] if part["done"]]
     if all(ratio is not None and ratio <= holomorph.UNEVEN[0] for ratio in ratios):
         return entry | {"coarse_places": [], "faces_without_area": 0}
     distortion = holomorph.distortion
     found = distortion.measure(polygons, uv_maps.read_corners(obj.data, polygons, entry["maps"][0]["name"]))
     places = coarse.places(obj, polygons, found.density)
-    without_area = int(np.count_nonzero(found.angle >= distortion.MOST_ANGLE))
+    without_area = int(np.count_nonzero(found.angle >= distortion.COLLAPSED))
     return entry | {"coarse_places": places, "faces_without_area": without_area}

@@ -15,7 +15,6 @@ from ..scene import mesh_io
 
 SUMMARISED = 8  # parts that a panel shows
 SHOWN_PERIODS = 4  # likewise, of each part
-COLLAPSED = 1e3  # a mean distortion that only a triangle without area gives
 
 
 @functools.lru_cache(maxsize=16)
@@ -115,16 +114,14 @@ def cut_lines(entry):
 def _topology(part):
     if "genus" not in part:
         return "no surface"
-    loops = part["boundary_count"]
-    return f"genus {part['genus']}" + ("" if not loops else ", 1 hole" if loops == 1 else f", {loops} holes")
+    loops, genus = part["boundary_count"], f"genus {part['genus']}"
+    return genus if not loops else f"{genus}, {loops} boundary loop{'s' if loops > 1 else ''}"
 
 
 def _result_lines(part):
     yield _sentence(part)
     yield from _tiling_lines(part["tiling"]) if "tiling" in part else [part["description"]]
-    angle = part["main_map"]["mean_angle"]  # none where it is infinite
-    collapsed = angle is None or angle > COLLAPSED
-    yield "a UV triangle has collapsed" if collapsed else f"angle distortion {angle:.4f}"
+    yield f"angle distortion {part['main_map']['mean_angle']:.4f}"
     if part.get("modulus") is not None:
         yield f"modulus {part['modulus']:.6g}"
         if part["modulus_bounds"] is not None:
@@ -140,8 +137,8 @@ def _sentence(part):
 
 
 def _tiling_lines(tiling):
-    yield f"stretch added by whole tiles: {tiling['added_distortion']:.4f}"
-    yield f"density, 95 : 5 % = {tiling['density_ratio']:.3g}"
+    yield f"angle distortion added by whole tiles: {tiling['added_distortion']:.4f}"
+    yield f"size range {tiling['size_range']:.3g}"
     yield f"poles: {len(tiling['poles'])}, branch points: {len(tiling['zeros'])}"
     if tiling["periods"]:
         shown = ", ".join(f"({u}, {v})" for u, v in tiling["periods"][:SHOWN_PERIODS])

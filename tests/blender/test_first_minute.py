@@ -272,7 +272,7 @@ def test_the_button_puts_poles_where_it_is_coarse():
     after = stored_report(obj)["components"][0]
     made = set(after["tiling"]["poles"])  # a pole whose residue is rounded to 0 is none
     assert len(places) > 0 and len(made) > 2 and made <= {*poles, *(place["vertex"] for place in places)}
-    assert after["main_map"]["density_ratio"] < before["components"][0]["main_map"]["density_ratio"]
+    assert after["main_map"]["size_range"] < before["components"][0]["main_map"]["size_range"]
 
 
 def test_poles_are_off_the_boundary():

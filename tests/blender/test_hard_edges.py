@@ -48,7 +48,7 @@ def test_the_panel_offers_islands_where_the_mesh_is_too_coarse():
     run()
     panel = drawn(obj)
     assert "hard edges" in " ".join(panel.texts) and BUTTON in panel.buttons
-    assert main_maps(obj)[0]["capped_mean_angle"] > 2.5
+    assert main_maps(obj)[0]["mean_angle"] > 2.5
 
 
 @pytest.mark.parametrize("make", [cone, lambda: primitive(bpy.ops.mesh.primitive_cylinder_add)])

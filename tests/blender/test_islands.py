@@ -59,7 +59,7 @@ def test_a_capped_cylinder_is_flattened_without_distortion():
     assert islands(obj) == {"FINISHED"}
     entry = stored_report(obj)
     assert [part["main_map"]["mean_angle"] for part in entry["components"]] == pytest.approx([1, 1, 1], abs=1e-4)
-    assert [part["main_map"]["density_ratio"] for part in entry["components"]] == pytest.approx([1, 1, 1], abs=1e-4)
+    assert [part["main_map"]["size_range"] for part in entry["components"]] == pytest.approx([1, 1, 1], abs=1e-4)
     assert [m["name"] for m in entry["maps"]] == ["Holomorphic"]
     assert_packed(obj)
 

@@ -20,18 +20,18 @@ def finger_arrays(n=24):
     return np.stack([x, y, height], axis=1), faces.tolist()
 
 
-def main_ratio(obj):
+def main_range(obj):
     (part,) = stored_report(obj)["components"]
-    return part["main_map"]["density_ratio"]
+    return part["main_map"]["size_range"]
 
 
 def test_the_map_becomes_even():
     obj = mesh_object("Finger", *finger_arrays())
     select(obj)
     run(main="ISLANDS", evenness=0)
-    before = main_ratio(obj)
+    before = main_range(obj)
     assert run(main="ISLANDS", most_stretch=2.0, evenness=0) == {"FINISHED"}
-    assert main_ratio(obj) < 4 and before > 10 * main_ratio(obj)
+    assert main_range(obj) < 2 and before > 3.2 * main_range(obj)
     assert_packed(obj)
 
 
@@ -60,7 +60,7 @@ def test_the_command(tmp_path):
     done = headless(mesh, "--main", "islands", "--most-stretch", 2, "--report", report)
     assert done.returncode == 0, done.stderr
     (entry,) = json.loads(report.read_text())["objects"]
-    assert entry["components"][0]["main_map"]["density_ratio"] < 4
+    assert entry["components"][0]["main_map"]["size_range"] < 2
 
 
 @pytest.mark.parametrize(

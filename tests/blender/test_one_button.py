@@ -43,10 +43,10 @@ def tilings(obj):
 def test_an_uneven_part_becomes_seamless():
     obj = limb()
     assert press(main="BALANCED", evenness=0) == {"FINISHED"}
-    before = stored_report(obj)["components"][0]["main_map"]["density_ratio"]
+    before = stored_report(obj)["components"][0]["main_map"]["size_range"]
     assert press() == {"FINISHED"}
     (found,) = tilings(obj)
-    assert found["density_ratio"] < 0.8 * before
+    assert found["size_range"] < 0.9 * before
     assert [layer.name for layer in obj.data.uv_layers] == ["Holomorphic", "Holomorphic 1"]
     vertices, jumps = edge_jumps(obj)
     whole = jumps[~np.isin(vertices, found["poles"])]
@@ -60,7 +60,7 @@ def test_the_monkey_is_even():
     assert press() == {"FINISHED"}
     parts = stored_report(obj)["components"]
     head = max(range(len(parts)), key=lambda i: parts[i]["faces"])
-    assert parts[head]["main_map"]["density_ratio"] < 3
+    assert parts[head]["main_map"]["size_range"] < 1.73
 
 
 def is_seamless(obj):
@@ -72,14 +72,14 @@ def test_an_even_torus_becomes_seamless_without_poles():
     obj = torus(thickness=0.1, bulge=0)
     press(main="BALANCED", evenness=0)
     before = stored_report(obj)["components"][0]["main_map"]
-    assert before["density_ratio"] < 2 and not is_seamless(obj)
+    assert before["size_range"] < 1.41 and not is_seamless(obj)
     press(texture="BRICKS")
     (found,) = tilings(obj)
     assert found["poles"] == [] and is_seamless(obj)
-    assert found["density_ratio"] < before["density_ratio"]
+    assert found["size_range"] < before["size_range"]
     press(texture="BRICKS", evenness=0)
     (found,) = tilings(obj)
-    assert found["density_ratio"] == pytest.approx(before["density_ratio"], rel=0.01)
+    assert found["size_range"] == pytest.approx(before["size_range"], rel=0.01)
 
 
 def test_a_tube_becomes_seamless_without_poles():
@@ -91,7 +91,7 @@ def test_a_tube_becomes_seamless_without_poles():
     press()
     (found,), after = tilings(obj), stored_report(obj)["components"][0]["main_map"]
     assert found["poles"] == [] and is_seamless(obj)
-    for name in ("density_ratio", "mean_angle"):
+    for name in ("size_range", "mean_angle"):
         assert after[name] == pytest.approx(before[name], rel=1e-6)
 
 
@@ -121,14 +121,14 @@ def test_an_even_map_without_seams_stays_what_it_is():
     obj = mesh_object("Grid", *grid_arrays())
     press(evenness=0)
     (part,) = stored_report(obj)["components"]
-    assert part["main_map"]["kind"] == "flat" and part["main_map"]["density_ratio"] < 1.05
+    assert part["main_map"]["kind"] == "flat" and part["main_map"]["size_range"] < 1.024
 
 
 def test_a_part_that_a_tiling_makes_no_less_even_becomes_seamless():
     obj = torus(thickness=0.1, bulge=0.22)
     press(evenness=0)
     (found,) = tilings(obj)
-    assert found["poles"] == [] and found["density_ratio"] > 2
+    assert found["poles"] == [] and found["size_range"] > 1.41
     assert is_seamless(obj)
 
 
@@ -199,7 +199,7 @@ def test_the_report_begins_with_words():
     press()
     lines = [line.strip() for line in module("results.stored").summary(obj["holomorph_report"])]
     assert "seamless" in lines[2] and "poles" in lines[2]
-    assert any(line.startswith("density, 95 : 5 %") for line in lines)
+    assert any(line.startswith("size range ") for line in lines)
     assert stored_report(obj)["dials"]["main"] == "AUTOMATIC"
     assert stored_report(obj)["components"][0]["forms"] == 1
 
@@ -283,14 +283,14 @@ def test_seams_are_where_the_tiling_jumps():
 
 def test_the_balanced_map_is_evened_and_those_of_the_forms_are_not():
     obj = limb()
-    ratios, forms = [], []
+    ranges, forms = [], []
     for evenness in (0, 0.5, 1):
         press(main="BALANCED", evenness=evenness)
         (part,) = stored_report(obj)["components"]
         assert part["main_map"]["evenness"] == evenness
-        ratios.append(part["main_map"]["density_ratio"])
+        ranges.append(part["main_map"]["size_range"])
         forms.append(uv(obj, "Holomorphic 1"))
-    assert ratios[1] < 0.9 * ratios[0] and ratios[2] < 0.9 * ratios[1]
+    assert ranges[1] < 0.95 * ranges[0] and ranges[2] < 0.95 * ranges[1]
     assert all(np.array_equal(forms[0], other) for other in forms[1:])
 
 

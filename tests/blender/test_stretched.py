@@ -36,16 +36,16 @@ def test_the_face_that_is_too_large_too_small_or_sheared(stretch):
     assert press() == {"FINISHED"}
     assert obj.mode == "EDIT" and tuple(bpy.context.scene.tool_settings.mesh_select_mode) == (False, False, True)
     assert selected(obj) == [0]
-    assert press(size=4, shear=4) == {"CANCELLED"} and obj.mode == "OBJECT"
+    assert press(size=4, angle=4) == {"CANCELLED"} and obj.mode == "OBJECT"
 
 
-def test_size_is_a_length_and_shear_a_ratio():
+def test_size_is_a_length_and_angle_a_ratio():
     obj = squares((3, 3))
     assert press(size=2.9) == {"FINISHED"} and selected(obj) == [0]
     assert press(size=3.1) == {"CANCELLED"}
     obj = squares((1, 3))
-    assert press(size=9, shear=2.9) == {"FINISHED"} and selected(obj) == [0]
-    assert press(size=9, shear=3.1) == {"CANCELLED"}
+    assert press(size=9, angle=2.9) == {"FINISHED"} and selected(obj) == [0]
+    assert press(size=9, angle=3.1) == {"CANCELLED"}
 
 
 def test_edit_mode_stays_and_objects_without_a_map_are_left_alone():

@@ -206,4 +206,4 @@ def test_the_panel_tells_kinds_and_moduli():
     select(obj)
     run()
     lines = "\n".join(module("results.stored").summary(obj["holomorph_report"]))
-    assert "genus 0, 2 holes" in lines and "modulus" in lines and "between" in lines
+    assert "genus 0, 2 boundary loops" in lines and "modulus" in lines and "between" in lines

@@ -290,7 +290,7 @@ def test_what_no_tiling_fits_gets_another_map():
     obj = bpy.context.object
     assert tile() == {"FINISHED"}
     (part,) = stored_report(obj)["components"]
-    assert part["main_map"]["kind"] == "islands" and part["main_map"]["density_ratio"] == pytest.approx(1)
+    assert part["main_map"]["kind"] == "islands" and part["main_map"]["size_range"] == pytest.approx(1)
 
 
 def test_an_object_that_is_refused_stays_as_it_was(calls):

@@ -63,7 +63,7 @@ def tiling(structure, options):
     for result in tilings:
         oracle.check_finite("the uv of a tiling", result.uv)
         oracle.check_finite("residues", result.residues)
-        assert not np.isnan([result.added_distortion, result.beltrami_rms, result.tiles, result.density_ratio]).any()
+        assert not np.isnan([result.added_distortion, result.beltrami_rms, result.tiles, result.size_range]).any()
 
 
 def levels(structure, _):

@@ -17,7 +17,7 @@ CASES = {
     "sphere": (SPHERE, {"poles": 4, "tiles": 40}),
     "torus": (TORUS, {"poles": 4, "tiles": 60}),
     "torus of quads": (CLOSED["torus of quads"], {"poles": 3, "tiles": 60}),
-    "torus without poles": (TORUS, {"poles": 0, "tiles": 200}),
+    "torus without poles": (TORUS, {"poles": 0, "tiles": 200, "direction": None}),
     "genus 2": (DOUBLE, {"poles": 4, "tiles": 128}),
     "genus 2, hexagonal": (DOUBLE, {"poles": 4, "tiles": 128, "lattice": "hex"}),
     "sphere, brick": (SPHERE, {"poles": 4, "tiles": 40, "lattice": "brick"}),

@@ -116,7 +116,7 @@ class Tiles:
     turn: float | None = _optional_number("an angle in radians", lambda value: True)
     max_turn: float = _number(0.2, "an angle of at least 0 radians", lambda value: value >= 0)
     evenness: float = _number(EVENNESS, "a number from 0 to 1", lambda value: 0 <= value <= 1)
-    max_added: float | None = _optional_number("a mean s1/s2 of at least 1", lambda value: value >= 1)
+    max_added: float | None = _optional_number("an angle distortion of at least 1", lambda value: value >= 1)
 
 
 @dataclass(frozen=True)

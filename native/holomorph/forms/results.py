@@ -102,11 +102,11 @@ class Structure(Value):
         self,
         tiles: float | None = None,
         *,
-        density: float | None = None,
         evenness: float = 0.0,
+        density: float | None = None,
         poles: Poles = "auto",
         lattice: str | ArrayLike = "square",
-        direction: ArrayLike | str | None = None,
+        direction: ArrayLike | str | None = "upright",
         turn: float | None = None,
         max_turn: float = 0.2,
         boundary: str = "automatic",
@@ -125,16 +125,18 @@ class Structure(Value):
 
         Parameters
         ----------
+        evenness : from 0 for a conformal map, the default here alone, to 1 for squares of nearly one size, which are
+            sheared instead. Textures look best at 0.5, the default of `automatic_map`, of the commands and in Blender.
+            Fewer poles are placed for any evenness above 0
         tiles : tiles of the texture over the surface, at its median density; default: a number that suits the genus
         density : tiles per unit of area, instead
-        evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Textures
-            look best at about 0.5. Fewer poles are placed for any evenness above 0
         poles : "auto" for none where the density is even without, else as many as it asks for, up to 16; a number; or a
             list of vertices, which stay where they are. Two at least on a closed surface of genus 0
         lattice : "square", "brick" (rows shifted by half), "hex", or a 2 x 2 matrix whose columns are the translations
-        direction : (3,) vector in space along which u runs, as far as it can; any where that is normal to a plane.
-            "upright" for rows that run level: v runs along +Z, as far as it can. turn : radians, rotates the texture
-            beside it; max_turn : radians by which the rounding may turn it away
+        direction : "upright" for rows that run level: v runs along +Z, as far as it can; ignored on intrinsic surfaces.
+            A (3,) vector in space along which u runs, as far as it can; any where that is normal to a plane. None for
+            the most even direction. turn : radians, rotates the texture beside it; max_turn : radians by which the
+            rounding may turn it away
         boundary : "automatic", "straight" or "free", see `Tiler`
         max_added : the largest `added_distortion` that is wanted; default any
         size_counts : whether the number of tiles counts more than a little shear, as where parts are to have one size

@@ -39,9 +39,9 @@ def automatic_map(
 
     A part that is flat, or falls into flat pieces at its hard edges, gets these (`island_map`). On another one a
     texture breaks off at the seams of the balanced map, and its size follows the density. Where there is a seam, or the
-    density ratio is above 2, tilings are tried. One takes the place of the balanced map where its density is about as
-    even, its mean s1 / s2 at most a tenth larger, and hardly any area is flipped. Where there are islands too, the map
-    is taken that an eye minds least (`appearance`).
+    size range is above 1.4, tilings are tried. One takes the place of the balanced map where its size range is about
+    the same, its angle distortion at most a tenth larger, and hardly any area is flipped. Where there are islands too,
+    the map with the lowest visual cost is returned (`appearance`).
 
     Parameters
     ----------

@@ -21,8 +21,8 @@ Refusal = InvalidMesh | TopologyError | SolverError
 
 MAIN_MAPS = ("automatic", "seamless", "untiled", "balanced")
 
-EVEN = 2.0  # 95 : 5 % ratio of the density below which a map without seams stays: the squares' sizes hardly differ
-LESS_EVEN = 1.01  # the ratio of a tiling over that of the balanced map, with which it still takes its place
+EVEN = 1.41  # size range below which a map without seams stays: the squares' sizes hardly differ
+LESS_EVEN = 1.005  # the size range of a tiling over that of the balanced map, with which it still takes its place
 MORE_SHEARED = 1.1  # the capped mean s1 / s2 of a tiling over that of the balanced map: a few triangles do not decide
 EVENING_SHEARS = 0.5  # what evenness 1 adds to the mean s1 / s2 of a tiling, for which it was asked
 MOST_FLIPPED = 0.02  # part of the area: what flips lies beside branch points, and few are seen
@@ -34,7 +34,7 @@ POLES = ("auto", 0)
 
 # The evened density ratio above which two more poles are tried, where that is quick, and tiles are so many that their
 # rounding decides less than the poles.
-UNEVEN, MORE_POLES, MOST_POLES, FEW_TRIANGLES, MANY_TILES = 3.0, 2, 16, 5000, 60
+UNEVEN, MORE_POLES, MOST_POLES, FEW_TRIANGLES, MANY_TILES = 1.73, 2, 16, 5000, 60
 
 # What islands may cost (see `appearance`) to be taken at once: less than a tiling does with poles, or where none may be
 # needed, as around a ring, so little that squares hardly differ.
@@ -117,7 +117,7 @@ def _is_taken_at_once(flat, surface):
 def _map_of(flat, surface, structure):
     where = "hard edges" if flat.soft_length <= MOST_SOFT else "seams"
     what = "in one piece" if not len(flat.seams) else f"along its {where} into {counted(flat.count, 'piece')}"
-    why = f"it flattens {what}: {_ratio(flat.quality.density_ratio)}"
+    why = f"it flattens {what}: {_size_range(flat.quality)}"
     return Map(surface, structure, flat.uv, flat.quality, np.empty(0), why, islands=flat)
 
 
@@ -125,10 +125,9 @@ def _why_it_stays(balanced):
     """Why the balanced map stays; "" where a texture would break off at a seam, or vary in size."""
     if balanced.surface.area == 0:
         return "the surface has no area"
-    ratio = balanced.quality.density_ratio
-    if len(balanced.structure.seams) or not ratio <= EVEN:
+    if len(balanced.structure.seams) or not balanced.quality.size_range <= EVEN:
         return ""
-    return f"it has no seams, and its squares hardly differ in size: {_ratio(ratio)}"
+    return f"it has no seams, and its squares hardly differ in size: {_size_range(balanced.quality)}"
 
 
 @dataclass(frozen=True)
@@ -152,12 +151,12 @@ class Undecided:
             more = self._tiled_or_balanced(len(made.poles) + MORE_POLES, options, scaled(progress, 1.0, 1.0))
         except REFUSALS:
             return made
-        return more if more.tiling and more.drawn_ratio < made.drawn_ratio else made
+        return more if more.tiling and more.drawn_range < made.drawn_range else made
 
     def _has_few_poles(self, made):
         is_evened = made.evenness > 0 and made.tiling.tiles >= MANY_TILES
         is_quick = len(self.surface.triangles) <= FEW_TRIANGLES
-        return is_evened and is_quick and made.drawn_ratio > UNEVEN and 0 < len(made.poles) < MOST_POLES
+        return is_evened and is_quick and made.drawn_range > UNEVEN and 0 < len(made.poles) < MOST_POLES
 
     def _tiled_or_balanced(self, poles, options, progress):
         if self.balanced is None:
@@ -172,7 +171,7 @@ class Undecided:
                 continue
             drawback = _drawback(made, self.balanced.quality)
             if not drawback:
-                return self._map(made, f"it has no visible seams and is no less even: {_ratio(made.density_ratio)}")
+                return self._map(made, f"it has no visible seams and is no less even: {_size_range(made.quality)}")
             reasons.append(f"a tiling {drawback}")
         return form_map(self.surface, self.structure, why=reasons[0], evenness=self.evenness)
 
@@ -231,15 +230,15 @@ def _drawback(tiling, balanced):
     quality = tiling.quality
     if not quality.flipped_part < MOST_FLIPPED:
         return f"would flip {100 * quality.flipped_part:.2g} % of the area"
-    most_sheared = MORE_SHEARED * balanced.capped_mean_angle + EVENING_SHEARS * tiling.evenness
-    if not quality.capped_mean_angle < most_sheared:
-        sheared = f"{quality.capped_mean_angle:.3g} instead of {balanced.capped_mean_angle:.3g}"
-        return f"would be more sheared: mean s1/s2 {sheared}"
-    ratio = math.inf if math.isnan(balanced.density_ratio) else balanced.density_ratio
-    if not tiling.density_ratio < LESS_EVEN * ratio:
-        return f"would be less even: {_ratio(tiling.density_ratio)} instead of {ratio:.3g}"
+    most_sheared = MORE_SHEARED * balanced.mean_angle + EVENING_SHEARS * tiling.evenness
+    if not quality.mean_angle < most_sheared:
+        sheared = f"{quality.mean_angle:.3g} instead of {balanced.mean_angle:.3g}"
+        return f"would be more sheared: angle distortion {sheared}"
+    most = math.inf if math.isnan(balanced.size_range) else balanced.size_range
+    if not tiling.size_range < LESS_EVEN * most:
+        return f"would be less even: {_size_range(quality)} instead of {most:.3g}"
     return ""
 
 
-def _ratio(value):
-    return f"density ratio {value:.3g}"
+def _size_range(quality):
+    return f"size range {quality.size_range:.3g}"

@@ -31,7 +31,7 @@ def mixed_map(surface: Surface, structure: AnyStructure, pieces: Sequence[Map], 
     mixed = Mixed(uv, tilings, seams, quality, evenness, *_seen_lengths(surface, is_border))
     has = f"{counted(len(tiled), 'piece')} between hard edges {'has' if len(tiled) == 1 else 'have'} whole tiles"
     rest = ", the rest flattens" if len(tiled) < len(pieces) else ""
-    why = f"{has}{rest}: density ratio {quality.density_ratio:.3g}"
+    why = f"{has}{rest}: size range {quality.size_range:.3g}"
     return Map(surface, structure, uv, quality, np.empty(0), why, mixed=mixed)
 
 

@@ -70,7 +70,7 @@ def _tiling_report(made, vertex_index):
     return plain(
         {
             "added_distortion": float(made.added_distortion),
-            "density_ratio": float(made.density_ratio),
+            "size_range": float(made.size_range),
             "beltrami_rms": float(made.beltrami_rms),
             "tiles": float(made.tiles),
             "poles": vertex_index[made.poles],
@@ -99,8 +99,7 @@ def map_report(coefficients: ArrayLike, quality: Quality, found: Verdict | None 
             "coefficients": coefficients,
             "verdict": vars(found or quality.verdict),
             "mean_angle": quality.mean_angle,
-            "capped_mean_angle": quality.capped_mean_angle,
-            "density_ratio": quality.density_ratio,
+            "size_range": quality.size_range,
             "flipped_part": quality.flipped_part,
             "flipped_triangles": np.count_nonzero(quality.flipped),
             "collapsed_triangles": np.count_nonzero(quality.collapsed),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -34,15 +35,15 @@ PLAIN = ("tiling", "forms")  # kinds that need no word where the mesh is one par
 @dataclass(frozen=True)
 class Whole:
     """text : kinds of the parts, what was left out, cut and joined; "" for one part of which nothing is to be said
-    capped_mean_angle, density_ratio : as those of `Quality`, over all parts as they are arranged
-    sizes : largest over smallest median density of the parts, see `overall`
+    mean_angle, size_range : as those of `Quality`, over all parts as they are arranged
+    sizes : how many times as long squares of one part are as those of another at most, see `overall`
     unmapped_faces : number of faces without a map
     verdict : the `Verdict`
     """
 
     text: str
-    capped_mean_angle: float
-    density_ratio: float
+    mean_angle: float
+    size_range: float
     sizes: float
     unmapped_faces: int
     verdict: Verdict
@@ -63,11 +64,11 @@ def whole(maps: Sequence[Map], parts: Sequence[dict[str, Any]], repairs: Repairs
     unmapped = sum(part["faces"] for part in parts if not part["done"])
     faces = sum(part["faces"] for part in parts)
     seen = sizes[(areas >= SMALL_PART * areas.sum()) & (sizes > 0)]
-    spread = float(seen.max() / seen.min()) if len(seen) else 1.0
+    spread = math.sqrt(seen.max() / seen.min()) if len(seen) else 1.0
     order = np.argsort(-areas, kind="stable")
     found = overall([maps[k].verdict for k in order], areas[order], sizes=spread, unmapped=unmapped / faces)
     text = "; ".join(_words(maps, unmapped, repairs))
-    return Whole(text, quality.capped_mean_angle, quality.density_ratio, spread, unmapped, found)
+    return Whole(text, quality.mean_angle, quality.size_range, spread, unmapped, found)
 
 
 def _sizes(maps):

@@ -17,7 +17,7 @@ from ..mesh.checks import check_options, only_component, own_vertices
 from ..mesh.surface import Surface
 from .plane_maps import DiskMap, FreeBoundaryMap, PlaneMap, RectangleMap, TriangleMap
 
-UNEVEN = 100.0  # density ratio of a disk map, ten in length, above which others are tried
+UNEVEN = 10.0  # size range of a disk map, above which others are tried
 
 
 def disk_map(
@@ -112,7 +112,7 @@ def default_disk_map(surface, **options) -> PlaneMap | PoleStructure:
     """The map of a disk for which nothing was chosen.
 
     Where its boundary has four clear corners, rough, round or wavy as they may be, the rectangle with these. Else the
-    map to the unit disk centred at the vertex farthest from the boundary along the edges. Where its density ratio is
+    map to the unit disk centred at the vertex farthest from the boundary along the edges. Where its size range is
     above `UNEVEN`, as on a glove or a long tube, the most even one of it, the log map with the same pole and the
     rectangle with corners at the quarters of the boundary. Where every vertex is next to the boundary, that rectangle,
     or the map with a free boundary where the rectangle collapses triangles and it flips none; with three boundary edges
@@ -128,12 +128,12 @@ def default_disk_map(surface, **options) -> PlaneMap | PoleStructure:
         round_map = disk_map(surface, **options)
     except TopologyError:
         return _without_inner_vertices(surface, options) if has_four_sides else triangle_map(surface, **options)
-    if _density_ratio(round_map) <= UNEVEN:
+    if _size_range(round_map) <= UNEVEN:
         return round_map
     maps = [round_map, _log_map(round_map, options)]
     if has_four_sides:
         maps.append(rectangle_map(surface, **options))
-    return min(maps, key=_density_ratio)
+    return min(maps, key=_size_range)
 
 
 def _log_map(round_map, options):
@@ -155,5 +155,5 @@ def _without_inner_vertices(surface, options):
     return straight if free.quality(free.uv()).flipped.any() else free
 
 
-def _density_ratio(structure):
-    return structure.quality(structure.uv(structure.balanced_coefficients())).density_ratio
+def _size_range(structure):
+    return structure.quality(structure.uv(structure.balanced_coefficients())).size_range

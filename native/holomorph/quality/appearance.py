@@ -1,7 +1,7 @@
 """How far a map is from one on which a texture looks as on flat paper, as one number: 0 is perfect.
 
 The weights were judged by eye on pictures of some thirty meshes beside Smart UV Project. Squares of 1 to 2 side by
-side, a density ratio of 4, are as bad as a mean shear of 1.7, as a seam nearly three times the size of the surface
+side, a size range of 2, are as bad as a mean shear of 1.7, as a seam nearly three times the size of the surface
 where it is smooth, or as four dozen poles. A seam along a hard edge, where the light breaks too, is hardly seen. Rows
 of squares that turn on their way round a tube by 27 degrees in the mean, as on a lamp shade unrolled, are as bad, too.
 """
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from .quality import Quality
 
-SHEAR = 2.0  # for 1 more of the capped mean s1 / s2, where an e-fold density ratio costs 1
+SHEAR = 2.0  # for 1 more of the mean s1 / s2, where an e-fold density ratio costs 1
 FLIPPED = 20.0  # for the whole area
 OVERLAPPING, OVERLAPS = 20.0, 0.2  # for the whole map, and for that it does, since it cannot be painted or baked
 ROUNDING = 1e-6  # part of the map: less of an overlap is none
@@ -31,7 +31,7 @@ def cost(quality: "Quality", poles: int = 0, soft_seams: float = 0.0, hard_seams
     ratio = quality.density_ratio
     if not ratio >= 1 or math.isinf(ratio):
         return math.inf
-    squares = math.log(ratio) + SHEAR * (quality.capped_mean_angle - 1)
+    squares = math.log(ratio) + SHEAR * (quality.mean_angle - 1)
     overlapping = quality.overlapping_part or 0.0
     lost = FLIPPED * quality.flipped_part + OVERLAPPING * overlapping + OVERLAPS * (overlapping > ROUNDING)
     return squares + lost + SEAM * soft_seams + HARD_SEAM * hard_seams + POLE * poles

@@ -15,7 +15,8 @@ import numpy as np
 from ..core.array_types import Integers, Reals
 
 MOST_OCTAVES = 16.0  # a density beyond is one of a collapsed polygon
-MOST_ANGLE = 1e3  # likewise
+COLLAPSED = 1e3  # s1 / s2 of a collapsed polygon
+MOST_ANGLE = 10.0  # what s1 / s2 counts at most in its mean, so that no single triangle decides it; as in uv/quality.h
 LOW, HIGH = 0.05, 0.95  # quantiles of the density whose ratio is reported
 
 
@@ -37,13 +38,13 @@ class Distortion:
 
     density: Reals  # (#F,) log2 of UV area per surface area (s1 s2) over its median by area
     angle: Reals  # (#F,) s1 / s2
-    density_ratio: float  # 95 % over 5 % quantile of the density, by area
-    mean_angle: float  # of the polygons that have not collapsed, by area
+    size_range: float  # of the sides of squares: root of the 95 % over 5 % quantile of the density, by area
+    mean_angle: float  # by area, each polygon with `MOST_ANGLE` at most
 
     @property
-    def density_text(self) -> str:
-        """The density ratio in few characters."""
-        return f"{self.density_ratio:.0f}" if self.density_ratio >= 100 else f"{self.density_ratio:.3g}"
+    def size_text(self) -> str:
+        """The size range in few characters."""
+        return f"{self.size_range:.0f}" if self.size_range >= 100 else f"{self.size_range:.3g}"
 
 
 class WorstPlace(NamedTuple):
@@ -74,14 +75,13 @@ def measure(mesh: Polygons, uv: Reals) -> Distortion:
     with np.errstate(divide="ignore", invalid="ignore"):
         half = (g22 * h11 - 2 * g12 * h12 + g11 * h22) / (8 * area * uv_area)  # (s1 / s2 + s2 / s1) / 2
         angle = np.where(area > 0, half + np.sqrt(np.clip(half**2 - 1, 0, None)), 1)
-        angle = np.clip(np.nan_to_num(angle, nan=MOST_ANGLE, posinf=MOST_ANGLE), 1, MOST_ANGLE)
+        angle = np.clip(np.nan_to_num(angle, nan=COLLAPSED, posinf=COLLAPSED), 1, COLLAPSED)
         angle = np.where(face_area > 0, np.bincount(polygon, area * angle, count) / face_area, 1)
         density = np.where(face_area > 0, face_uv / face_area, np.nan)
         low, median, high = quantiles(density, face_area, (LOW, 0.5, HIGH))
         octaves = np.clip(np.nan_to_num(np.log2(density / median), nan=0.0), -MOST_OCTAVES, MOST_OCTAVES)
-    kept = angle < MOST_ANGLE
-    mean = np.average(angle[kept], weights=face_area[kept]) if face_area[kept].any() else 1.0
-    return Distortion(octaves, angle, float(high / low) if low > 0 else np.inf, float(mean))
+    mean = np.average(np.minimum(angle, MOST_ANGLE), weights=face_area) if face_area.any() else 1.0
+    return Distortion(octaves, angle, float(np.sqrt(high / low)) if low > 0 else np.inf, float(mean))
 
 
 def worst_places(mesh: Polygons, uv: Reals, poles: Integers) -> dict[str, WorstPlace]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -13,10 +14,8 @@ from .. import _native
 from ..core import arrays
 from ..core.array_types import Flags, Reals
 from ..core.value import Value
-from .distortion import HIGH, LOW, quantiles
+from .distortion import HIGH, LOW, MOST_ANGLE, quantiles
 from .verdicts import LONG, UNSEEN, Verdict, verdict
-
-MOST_SHEARED = 10.0  # what s1 / s2 counts at most in the capped mean
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -24,13 +23,13 @@ class Quality(Value):
     """Distortion of a UV map per triangle, s1 >= s2 its singular values.
 
     angle: (#T,) s1 / s2 (1 where a triangle has no area, infinite where it has collapsed or a UV is not finite); area:
-    (#T,) s1 s2, UV area per surface area; flipped: (#T,) bool; mean_angle: mean of s1 / s2 over the area of the
-    triangles that have not collapsed; density_ratio: 95 % over 5 % quantile of s1 s2 by area; median_density: its 50 %
-    quantile; capped_mean_angle: mean of s1 / s2 over the area, 10 at most, so that no single triangle decides it;
-    flipped_part, lost_part, long_part: parts of the area that are flipped, that are flipped or have collapsed, and that
-    lie in long thin triangles; overlapping_part: of a map with a free boundary, the part of its region in the plane
-    that it covers more than once; None for others; unseen_angle: of an evened map, what evening added to
-    `capped_mean_angle`, as far as that is not seen.
+    (#T,) s1 s2, UV area per surface area; flipped: (#T,) bool; mean_angle: mean of s1 / s2 over the area, each
+    triangle with 10 at most, so that none decides it alone; density_ratio: 95 % over 5 % quantile of s1 s2 by area;
+    median_density: its 50 % quantile; size_range: of the sides of squares, the root of density_ratio; flipped_part,
+    lost_part, long_part: parts of the area that are flipped, that are flipped or have collapsed, and that lie in long
+    thin triangles; overlapping_part: of a map with a free boundary, the part of its region in the plane that it covers
+    more than once; None for others; unseen_angle: of an evened map, what evening added to `mean_angle`, as far as that
+    is not seen.
     """
 
     _unpickled = ("_triangulation",)
@@ -65,8 +64,7 @@ class Quality(Value):
         parts = [(each.angle, each.area, each.flipped, each._weights) for each in scaled]
         angle, density, flipped, weights = map(np.concatenate, zip(*parts))
         low, median, high = quantiles(density, weights, (LOW, 0.5, HIGH))
-        kept = np.isfinite(angle)
-        mean = float(np.average(angle[kept], weights=weights[kept])) if weights[kept].any() else np.inf
+        mean = float(np.average(np.minimum(angle, MOST_ANGLE), weights=weights))
         figures = mean, float(high / low) if low > 0 else np.inf, float(median)
         shares = [each._weights.sum() for each in qualities]
         long, unseen, overlapping = (
@@ -81,7 +79,7 @@ class Quality(Value):
 
     def evened_from(self, before: Quality, evenness: float) -> Quality:
         """The same for a map that evening made of one with the quality `before`."""
-        added = self.capped_mean_angle - before.capped_mean_angle
+        added = self.mean_angle - before.mean_angle
         return replace(self, unseen_angle=min(max(added, 0.0), UNSEEN * evenness))
 
     def of_copy(self, scale: float) -> Quality:
@@ -103,7 +101,7 @@ class Quality(Value):
     def _facts(self):
         lost = [(self.flipped, "flipped"), (self.collapsed, "collapsed")]
         counts = [f"{count} {name}" for flags, name in lost if (count := np.count_nonzero(flags))]
-        return [f"mean s1/s2 {self.mean_angle:.4g}", f"density ratio {self.density_ratio:.4g}", *counts]
+        return [f"size range {self.size_range:.4g}", f"angle distortion {self.mean_angle:.4g}", *counts]
 
     def __getstate__(self):
         vars(self).update(long_part=self.long_part, _weights=self._weights)  # these need the triangulation
@@ -114,9 +112,10 @@ class Quality(Value):
         """(#T,) bool: the map leaves a triangle with area next to none."""
         return np.isinf(self.angle)
 
-    @cached_property
-    def capped_mean_angle(self) -> float:
-        return float(np.average(np.minimum(self.angle, MOST_SHEARED), weights=self._weights))
+    @property
+    def size_range(self) -> float:
+        """How many times as long as the 5 % smallest squares the 5 % largest are at least."""
+        return math.sqrt(self.density_ratio)
 
     @cached_property
     def density_spread(self) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -19,19 +18,19 @@ if TYPE_CHECKING:
 LEVELS = ("good", "fair", "poor", "unusable")
 
 # The largest values of all levels but the last. They were chosen on pictures of 63 meshes, see docs/python/verdicts.md.
-UNEVEN = (10.0, 40.0, 1000.0)  # 95 : 5 % ratio of the density, in area
-SHEARED = (1.15, 1.4, 2.5)  # mean s1 / s2, each at most `quality.MOST_SHEARED`
-UNSEEN = 0.3  # mean s1 / s2 that evening may add unseen at evenness 1: it is spread out, and squares have one size
+UNEVEN = (3.16, 6.32, 31.6)  # size range: the root of 10, 40 and 1000 in density
+SHEARED = (1.15, 1.4, 2.5)  # angle distortion
+UNSEEN = 0.3  # angle distortion that evening may add unseen at evenness 1: it is spread out, and squares have one size
 LOST = (0.002, 0.01, 0.05)  # part of the area that is flipped or has collapsed
 SMALL_PART = 0.01  # part of the area of all parts: worse maps of less do not decide
-SAME_SIZE = 1.1  # largest over smallest median density of parts that is not seen
+SAME_SIZE = 1.049  # largest over smallest side of squares of parts that is not seen: 10 % in area
 OVERLAPPING = (1e-6, 0.01, 0.2)  # part of an island that covers itself: less is rounding; it can be textured, not baked
 
 EVENNESS = ("even", "fairly even", "uneven", "very uneven")
 SHEAR = (None, "slightly sheared", "sheared", "badly sheared")
 LONG = 10.0  # square of the longest side over twice the area of a long thin triangle; 1.2 where it is equilateral
 MOSTLY = 0.5  # part of the area that is
-ADDED = 1.05  # mean s1 / s2 that a tiling's whole numbers add, from which on more tiles would show
+ADDED = 1.05  # angle distortion that a tiling's whole numbers add, from which on more tiles would show
 ISLANDS = "or unwrap it in islands along its hard edges"
 OVERLAP_ADVICE = "mark one more seam across the island"
 
@@ -68,17 +67,17 @@ class Verdict:
 def verdict(quality: Quality, poles: int | None = None, added_distortion: float = 1.0) -> Verdict:
     """The `Verdict` on a map with this `Quality`.
 
-    The worst counts: how uneven the density is, how far squares are sheared, which part of the surface is flipped or
+    The worst counts: the size range, how far squares are sheared, which part of the surface is flipped or
     has collapsed, and which part of an island covers itself. `UNEVEN`, `SHEARED`, `LOST`, `OVERLAPPING` are the limits.
     Of the shear that evening added, what is not seen does not count.
 
     poles, added_distortion : of a seamless tiling, how many it has, and `Tiling.added_distortion`; None for other maps
     """
-    if math.isinf(quality.mean_angle):
+    if not quality.area.any():
         return Verdict("unusable", "No texture is visible: the map has no area", "unwrap it again")
     ranks = [
-        _rank(quality.density_ratio, UNEVEN),
-        _rank(quality.capped_mean_angle - quality.unseen_angle, SHEARED),
+        _rank(quality.size_range, UNEVEN),
+        _rank(quality.mean_angle - quality.unseen_angle, SHEARED),
         _rank(quality.lost_part, LOST),
         _rank(quality.overlapping_part or 0.0, OVERLAPPING),
     ]
@@ -99,7 +98,8 @@ def overall(
 
     areas : (n,) of the parts, equal by default. Worse parts that have less than `SMALL_PART` of the area together are
         named, and do not decide
-    sizes : largest over smallest median density of the parts; from `SAME_SIZE` on no texture fits all parts
+    sizes : how many times as long squares of one part are as those of another at most; from `SAME_SIZE` on no texture
+        fits all parts
     unmapped : part of the faces that has no map, to which the limits `LOST` apply
     """
     areas = np.ones(len(verdicts)) if areas is None else arrays.numbers(areas, "areas")
@@ -113,7 +113,7 @@ def overall(
     if unmapped:
         found.append((_rank(unmapped, LOST), f"{_percent(unmapped)} of the faces have no map", ""))
     if sizes > SAME_SIZE:
-        told = f"squares differ in size between parts by a factor of {_factor(math.sqrt(sizes))}"
+        told = f"squares differ in size between parts by a factor of {_factor(sizes)}"
         found.append((LEVELS.index("poor"), told, "ask for more tiles"))
     if ranks.max() > rank:
         count = int(np.count_nonzero(ranks > rank))
@@ -139,7 +139,7 @@ def _sentence(quality, poles, ranks):
     uneven, sheared, lost, overlapping = ranks
     words = [EVENNESS[uneven], None if poles is None else "seamless", SHEAR[sheared]]
     if uneven > 1:
-        words[0] += f" (squares of 1 to {_factor(math.sqrt(quality.density_ratio))})"
+        words[0] += f" (squares of 1 to {_factor(quality.size_range)})"
     if lost:
         words.append(f"{_percent(quality.lost_part)} flipped or collapsed")
     if overlapping:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import weakref
 from collections.abc import Mapping
 
@@ -77,14 +78,15 @@ class Tiler:
     def poles(self) -> PlacedPoles:
         """`PlacedPoles`."""
         placement = self._placement
-        return PlacedPoles(self._of_surface(placement.poles()), placement.residues(), placement.density_ratio)
+        vertices, size_range = self._of_surface(placement.poles()), math.sqrt(placement.density_ratio)
+        return PlacedPoles(vertices, placement.residues(), size_range)
 
     def tile(
         self,
         tiles: float | None = None,
         *,
         lattice: str | ArrayLike = "square",
-        direction: ArrayLike | str | None = None,
+        direction: ArrayLike | str | None = "upright",
         turn: float | None = None,
         max_turn: float = 0.2,
         max_added: float | None = None,
@@ -94,7 +96,7 @@ class Tiler:
     ) -> Tiling:
         """A `Tiling`; see `Structure.tile`. turn : radians by which the texture is rotated, beside the direction."""
         if max_added is not None and real_number(max_added, "max_added") < 1:
-            raise ValueError(f"max_added is {quoted(max_added)}; a mean s1 / s2 of at least 1 is needed")
+            raise ValueError(f"max_added is {quoted(max_added)}; an angle distortion of at least 1 is needed")
         tiles = 0.0 if tiles is None else real_number(tiles, "tiles", positive=True)
         turn = None if turn is None else real_number(turn, "turn")
         max_turn = real_number(max_turn, "max_turn")
@@ -177,7 +179,7 @@ class Tiler:
             evenness=evenness,
             added_distortion=made.distortion(),
             beltrami_rms=made.beltrami_rms(),
-            optimal_density_ratio=self.poles.density_ratio,
+            optimal_size_range=self.poles.size_range,
             rounding=Rounding(*made.rounding()),
             tiles=made.tiles(),
             quality=self._quality(made, evenness),

@@ -43,9 +43,9 @@ class Tiling(Value):
     residues : (k,) complex points of the lattice: by how much the UVs change around each pole, counter-clockwise
     zeros : ((k,) vertices, (k,) orders): where the texture branches, around 2 pi (order + 1)
     evenness : from 0, conformal, to 1: how far squares of one size were preferred to angles
-    added_distortion : mean s1 / s2 over the area that the rounding to integers alone would give; 1 where it costs none
+    added_distortion : angle distortion that the rounding to integers alone would give; 1 where it costs none
     beltrami_rms : root mean square of the Beltrami coefficient of the rounding
-    optimal_density_ratio : 95 % over 5 % quantile of the density that these poles allow without integers
+    optimal_size_range : the `size_range` that these poles allow without integers
     rounding : `Rounding`
     tiles : the number of tiles that was aimed at: area times median density
     quality : `Quality` on the triangles of the surface, diagonals flipped away from the poles
@@ -61,7 +61,7 @@ class Tiling(Value):
     evenness: float
     added_distortion: float
     beltrami_rms: float
-    optimal_density_ratio: float
+    optimal_size_range: float
     rounding: Rounding
     tiles: float
     quality: Quality
@@ -70,12 +70,12 @@ class Tiling(Value):
 
     def _facts(self):
         size = f"{self.tiles:.4g} tiles, {counted(len(self.poles), 'pole')}"
-        return [size, f"density ratio {self.density_ratio:.4g}", f"mean s1/s2 {self.quality.mean_angle:.4g}"]
+        return [size, f"size range {self.size_range:.4g}", f"angle distortion {self.quality.mean_angle:.4g}"]
 
     @property
-    def density_ratio(self) -> float:
-        """95 % over 5 % quantile of s1 s2 by area."""
-        return self.quality.density_ratio
+    def size_range(self) -> float:
+        """`Quality.size_range`."""
+        return self.quality.size_range
 
     @property
     def verdict(self) -> Verdict:
@@ -85,11 +85,11 @@ class Tiling(Value):
 
 @dataclass(frozen=True, repr=False)
 class PlacedPoles(Value):
-    """Vertices, complex residues up to a common factor, and the density ratio that they allow."""
+    """Vertices, complex residues up to a common factor, and the size range that they allow."""
 
     vertices: Integers
     residues: Complexes
-    density_ratio: float
+    size_range: float
 
     def _facts(self):
-        return [counted(len(self.vertices), "pole"), f"density ratio {self.density_ratio:.4g}"]
+        return [counted(len(self.vertices), "pole"), f"size range {self.size_range:.4g}"]

@@ -147,15 +147,16 @@ Quality quality(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& u
     const double larger = size_A + size_B, smaller = std::abs(size_A - size_B);
     if (!(smaller > kCollapsed * larger) || !std::isfinite(larger)) {
       result.angle[t] = std::numeric_limits<double>::infinity();
+      sum += {areas[t], areas[t] * kMostAngle};
       return;
     }
     result.area[t] = larger * smaller;
     result.flipped[t] = size_B > size_A;
     result.angle[t] = larger / smaller;
-    sum += {areas[t], areas[t] * result.angle[t]};
+    sum += {areas[t], areas[t] * std::min(result.angle[t], kMostAngle)};
   };
   const AngleSum sum = sum_over_rows(workers, static_cast<int>(count), AngleSum(), measure);
-  result.mean_angle = sum.area > 0 ? sum.angle / sum.area : std::numeric_limits<double>::infinity();
+  result.mean_angle = sum.area > 0 ? sum.angle / sum.area : kMostAngle;
   const Distribution densities(result.area, areas, workers);
   const double low = densities.quantile(0.05);
   result.density_ratio = low > 0 ? densities.quantile(0.95) / low : std::numeric_limits<double>::infinity();

@@ -28,11 +28,11 @@ def surface_of(mesh):
 
 
 def quality(ratio, sheared, flipped=0.0):
-    return SimpleNamespace(density_ratio=ratio, capped_mean_angle=sheared, flipped_part=flipped)
+    return SimpleNamespace(size_range=math.sqrt(ratio), mean_angle=sheared, flipped_part=flipped)
 
 
 def tiling(ratio, *others):
-    return SimpleNamespace(density_ratio=ratio, quality=quality(ratio, *others), evenness=0.0)
+    return SimpleNamespace(size_range=math.sqrt(ratio), quality=quality(ratio, *others), evenness=0.0)
 
 
 @pytest.mark.parametrize(

@@ -101,7 +101,7 @@ def test_looks(name):
     quality = made.quality
     low, high = quantiles(quality.area, quality._weights, (0.01, 0.99))
     words = ", ".join(word for word in made.verdict.sentence.split(", ") if word != "seamless" and "pole" not in word)
-    figures = quality.density_ratio, high / low, quality.capped_mean_angle, seam_length(made)
+    figures = quality.density_ratio, high / low, quality.mean_angle, seam_length(made)
     found = Looks(made.kind, len(made.poles), *figures, words)
     print(f"\n{name}: {found}, {seconds:.2f} s of the processor")
     assert (found.kind, found.words) == (expected.kind, expected.words)

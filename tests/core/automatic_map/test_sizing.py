@@ -92,10 +92,10 @@ def test_more_poles_are_tried_where_the_map_is_less_even_than_foretold(seed):
     undecided = Undecided(surface, automatic_structure(surface), None, evenness=0.5)
     first = undecided._map(undecided.structure.tile(**options), "")
     made = undecided.tiled("auto", options, None)
-    if first.drawn_ratio <= UNEVEN:
+    if first.drawn_range <= UNEVEN:
         assert np.array_equal(made.uv, first.uv)
     else:
-        assert made.drawn_ratio <= first.drawn_ratio
+        assert made.drawn_range <= first.drawn_range
     stages = []
     again = undecided.tiled("auto", {**options, "evenness": 1.0}, lambda _fraction, stage: stages.append(stage))
     assert again.evenness == 1.0 and "search for poles" not in stages

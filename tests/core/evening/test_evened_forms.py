@@ -149,10 +149,10 @@ def test_same_bits_at_any_number_of_threads(name):
 @everywhere
 def test_the_verdict_forgives_what_evening_added_alone(name):
     before, after = mapped(name, 0).quality, mapped(name, 0.5).quality
-    added = after.capped_mean_angle - before.capped_mean_angle
+    added = after.mean_angle - before.mean_angle
     assert before.unseen_angle == 0
     assert after.unseen_angle == pytest.approx(min(max(added, 0), 0.5 * UNSEEN))
-    judged = Measured(density_ratio=after.density_ratio, capped_mean_angle=after.capped_mean_angle - after.unseen_angle)
+    judged = Measured(size_range=after.size_range, mean_angle=after.mean_angle - after.unseen_angle)
     judged.lost_part, judged.overlapping_part, judged.long_part = after.lost_part, after.overlapping_part, 0.0
     judged.flipped, judged.collapsed = after.flipped, after.collapsed
     assert mapped(name, 0.5).verdict.level == verdict(judged).level

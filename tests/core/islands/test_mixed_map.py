@@ -88,7 +88,7 @@ def test_no_seam_is_seen_but_at_the_ends(mapped):
 def test_the_quality_is_that_of_the_whole_map(mapped):
     surface, made = mapped
     own = Quality.of(surface._native, made.uv, 0)
-    assert made.quality.capped_mean_angle == pytest.approx(own.capped_mean_angle, rel=1e-5)
+    assert made.quality.mean_angle == pytest.approx(own.mean_angle, rel=1e-5)
     assert made.quality.density_ratio == pytest.approx(own.density_ratio, rel=1e-3)
     assert made.verdict.is_fit and made.cost == made.mixed.cost
 
@@ -143,7 +143,7 @@ def test_a_smaller_copy_weighs_less():
     copied = Quality.joined([maps[0].quality.of_copy(1 / 3), maps[1].quality], [1.0, 1.0])
     own = Quality.joined([Quality.of(small._native, maps[0].uv, 0), maps[1].quality], [1.0, 1.0])
     assert copied.density_ratio == pytest.approx(own.density_ratio, rel=1e-9)
-    assert copied.capped_mean_angle == pytest.approx(own.capped_mean_angle, rel=1e-9)
+    assert copied.mean_angle == pytest.approx(own.mean_angle, rel=1e-9)
 
 
 def test_faces_that_are_read_in_reverse_are_not_mirrored():

@@ -228,7 +228,7 @@ def test_what_was_computed_is_in_the_pickle():
 
 def test_quality_of_a_pickle_tells_all():
     given = again(example("Quality"))
-    for name in ("capped_mean_angle", "flipped_part", "lost_part", "long_part", "verdict"):
+    for name in ("mean_angle", "flipped_part", "lost_part", "long_part", "verdict"):
         assert getattr(given, name) == getattr(example("Quality"), name)
 
 

@@ -154,12 +154,12 @@ def test_ten_numberings_have_the_same_maps(mesh, most):
     ratios, tilings = [], []
     for seed in range(10):
         structure = conformal_structure(surface_of(renumbered(mesh, seed)))
-        ratios.append(structure.quality(structure.uv(structure.balanced_coefficients())).density_ratio)
+        ratios.append(structure.quality(structure.uv(structure.balanced_coefficients())).size_range)
         tilings.append(structure.tile())
     assert np.ptp(ratios) < SEARCH["numbers"] * min(ratios)
-    optimal = [tiling.optimal_density_ratio for tiling in tilings]
+    optimal = [tiling.optimal_size_range for tiling in tilings]
     assert np.ptp(optimal) < SEARCH["numbers"] * min(optimal)
-    assert max(tiling.density_ratio for tiling in tilings) < most * min(optimal)
+    assert max(tiling.size_range for tiling in tilings) < most * min(optimal)
 
 
 @few

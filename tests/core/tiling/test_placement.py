@@ -36,8 +36,8 @@ def test_every_spike_has_its_pole(count):
     radius = np.linalg.norm(at, axis=1)
     assert radius.min() > 1 + LENGTH / 2
     assert len(set((at @ spikes.T).argmax(1))) == count
-    assert placed.density_ratio < 20
-    assert place_poles(surface, 2).density_ratio > 2 * placed.density_ratio
+    assert placed.size_range < 4.5
+    assert place_poles(surface, 2).size_range > 1.41 * placed.size_range
 
 
 def prism(around, rows):

@@ -76,8 +76,8 @@ def test_poles_make_the_density_even():
     stretched = families.replace(capsule, vertices=capsule.vertices * [1, 1, 5])
     structure = automatic_structure(surface_of(stretched))
     two, eight = structure.tile(100, poles=2), structure.tile(100, poles=8)
-    assert eight.optimal_density_ratio < two.optimal_density_ratio
-    assert eight.density_ratio < 1.5 * eight.optimal_density_ratio
+    assert eight.optimal_size_range < two.optimal_size_range
+    assert eight.size_range < 1.22 * eight.optimal_size_range
 
 
 def test_tiles_are_counted_at_the_median_density():
@@ -154,7 +154,7 @@ def test_large_surfaces_find_their_poles_on_a_level():
     assert len(surface.triangles) > 10_000
     made = automatic_structure(surface).tile(64, poles=4)
     assert made.added_distortion < 1.001
-    assert made.density_ratio < 2 * made.optimal_density_ratio
+    assert made.size_range < 1.41 * made.optimal_size_range
 
 
 REFUSED = [

@@ -9,7 +9,7 @@ from holomorph.quality.appearance import TURN, cost
 
 def quality(density_ratio=1.0, shear=1.0, flipped=0.0, overlapping=0.0):
     return SimpleNamespace(
-        density_ratio=density_ratio, capped_mean_angle=shear, flipped_part=flipped, overlapping_part=overlapping
+        density_ratio=density_ratio, mean_angle=shear, flipped_part=flipped, overlapping_part=overlapping
     )
 
 

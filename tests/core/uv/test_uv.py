@@ -179,26 +179,20 @@ def quality_and_areas(name):
 
 
 @embedded
-def test_mean_angle(name):
+def test_mean_angle_and_flipped_part(name):
     quality, area = quality_and_areas(name)
-    assert abs(quality.mean_angle - (quality.angle * area).sum() / area.sum()) < 1e-9 * quality.mean_angle
-
-
-@embedded
-def test_capped_mean_and_flipped_part(name):
-    quality, area = quality_and_areas(name)
-    capped = (np.minimum(quality.angle, 10) * area).sum() / area.sum()
-    assert abs(quality.capped_mean_angle - capped) < 1e-9 * capped
+    mean = (np.minimum(quality.angle, 10) * area).sum() / area.sum()
+    assert abs(quality.mean_angle - mean) < 1e-9 * mean
     assert abs(quality.flipped_part - area[quality.flipped].sum() / area.sum()) < 1e-12
 
 
-def test_one_triangle_does_not_decide_the_capped_mean():
+def test_one_triangle_does_not_decide_the_mean():
     structure = solved("even torus")
     uv = structure.uv([1]).copy()
     uv[structure.surface.triangle_corners[0]] = uv[0]
     quality = structure.quality(uv)
     assert quality.collapsed.sum() == 1
-    assert quality.capped_mean_angle < 1.1 * structure.quality(structure.uv([1])).mean_angle
+    assert quality.mean_angle < 1.1 * structure.quality(structure.uv([1])).mean_angle
 
 
 @embedded

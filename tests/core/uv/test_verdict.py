@@ -26,9 +26,7 @@ def disk():
 # ---- levels -------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("field", "limits"), [("density_ratio", UNEVEN), ("capped_mean_angle", SHEARED), ("lost_part", LOST)]
-)
+@pytest.mark.parametrize(("field", "limits"), [("size_range", UNEVEN), ("mean_angle", SHEARED), ("lost_part", LOST)])
 def test_each_quantity_alone_decides_the_level(field, limits):
     """Up to its limits, which belong to the better level; without a number it is the last one."""
     for rank, limit in enumerate(limits):
@@ -46,8 +44,8 @@ def test_an_island_that_lies_over_itself_is_named():
 
 
 def test_islands_are_offered_where_the_mesh_is_too_coarse():
-    assert verdict(Measured(capped_mean_angle=2.0)).offers_islands
-    assert not verdict(Measured(density_ratio=225)).offers_islands
+    assert verdict(Measured(mean_angle=2.0)).offers_islands
+    assert not verdict(Measured(size_range=15)).offers_islands
 
 
 def test_a_map_without_distortion_is_good_and_needs_no_advice():
@@ -66,16 +64,16 @@ ISLANDS = "or unwrap it in islands along its hard edges"
         ({"overlapping_part": 0.0}, {}, "Even", ""),
         ({"overlapping_part": OVERLAPPING[0]}, {}, "Even", ""),
         ({"overlapping_part": 0.12}, {}, "Even, 12 % of the island overlaps itself", "mark one more seam across"),
-        ({"density_ratio": 225, "overlapping_part": 0.0}, {}, "Uneven (squares of 1 to 15)", "mark a seam up to"),
+        ({"size_range": 15, "overlapping_part": 0.0}, {}, "Uneven (squares of 1 to 15)", "mark a seam up to"),
         ({}, {"poles": 0}, "Even, seamless, no poles", ""),
-        ({"density_ratio": 25}, {}, "Fairly even", "make a seamless tiling, with poles where it is coarse"),
-        ({"density_ratio": 225}, {"poles": 1}, "Uneven (squares of 1 to 15), seamless, 1 pole", "add poles"),
-        ({"density_ratio": 1600}, {}, "Very uneven (squares of 1 to 40)", "make a seamless tiling"),
-        ({"density_ratio": np.inf}, {}, "Very uneven (squares of 1 to over 1000)", "make a seamless tiling"),
-        ({"capped_mean_angle": 1.3}, {}, "Even, slightly sheared", "subdivide the mesh"),
-        ({"capped_mean_angle": 1.3}, {"added_distortion": 1.2}, "Even, slightly sheared", "ask for more tiles"),
-        ({"capped_mean_angle": 3}, {}, "Even, badly sheared", "subdivide the mesh, which is too coarse"),
-        ({"capped_mean_angle": 2, "long_part": 0.9}, {}, "Even, sheared", f"remesh its long thin faces, {ISLANDS}"),
+        ({"size_range": 5}, {}, "Fairly even", "make a seamless tiling, with poles where it is coarse"),
+        ({"size_range": 15}, {"poles": 1}, "Uneven (squares of 1 to 15), seamless, 1 pole", "add poles"),
+        ({"size_range": 40}, {}, "Very uneven (squares of 1 to 40)", "make a seamless tiling"),
+        ({"size_range": np.inf}, {}, "Very uneven (squares of 1 to over 1000)", "make a seamless tiling"),
+        ({"mean_angle": 1.3}, {}, "Even, slightly sheared", "subdivide the mesh"),
+        ({"mean_angle": 1.3}, {"added_distortion": 1.2}, "Even, slightly sheared", "ask for more tiles"),
+        ({"mean_angle": 3}, {}, "Even, badly sheared", "subdivide the mesh, which is too coarse"),
+        ({"mean_angle": 2, "long_part": 0.9}, {}, "Even, sheared", f"remesh its long thin faces, {ISLANDS}"),
         (
             {"lost_part": 0.03, "flipped": (True,)},
             {},
@@ -100,12 +98,12 @@ def test_words(measured, tiling, sentence, advice):
 
 
 def test_no_advice_is_given_twice():
-    found = verdict(Measured(capped_mean_angle=1.3, lost_part=0.005, flipped=(True,)))
+    found = verdict(Measured(mean_angle=1.3, lost_part=0.005, flipped=(True,)))
     assert found.advice == "subdivide the mesh where faces are flipped"
 
 
 def test_where_a_mesh_is_too_coarse_islands_are_the_only_advice():
-    found = verdict(Measured(density_ratio=1e4, capped_mean_angle=4, lost_part=0.2, long_part=0.9))
+    found = verdict(Measured(size_range=100, mean_angle=4, lost_part=0.2, long_part=0.9))
     assert found.advice == f"remesh its long thin faces, {ISLANDS}"
 
 
@@ -117,7 +115,7 @@ def test_a_map_that_is_nothing_is_never_called_good(factor):
         quality = structure.quality(uv * factor)
     assert quality.verdict.level == "unusable"
     assert quality.verdict.sentence == "No texture is visible: the map has no area"
-    assert quality.mean_angle == quality.density_ratio == np.inf and quality.capped_mean_angle == pytest.approx(10)
+    assert quality.size_range == quality.density_ratio == np.inf and quality.mean_angle == pytest.approx(10)
     assert quality.collapsed.all() and quality.lost_part == pytest.approx(1) and quality.median_density == 0
 
 
@@ -152,7 +150,7 @@ def test_a_tiling_is_called_seamless():
 
 
 def test_the_worst_part_decides():
-    good, poor = verdict(Measured()), verdict(Measured(density_ratio=225))
+    good, poor = verdict(Measured()), verdict(Measured(size_range=15))
     assert overall([good, good]) == good and overall([poor]) == poor
     found = overall([good, poor, good])
     assert found.level == "poor" and found.advice == poor.advice
@@ -161,7 +159,7 @@ def test_the_worst_part_decides():
 
 
 def test_a_part_without_a_hundredth_of_the_area_is_named_and_does_not_decide():
-    good, poor = verdict(Measured()), verdict(Measured(density_ratio=225))
+    good, poor = verdict(Measured()), verdict(Measured(size_range=15))
     found = overall([good, poor], [1000, 1])
     assert found.level == "good" and found.sentence == "Even; 1 small part is poor"
     assert overall([good, poor], [1000, 100]).level == "poor"
@@ -171,8 +169,8 @@ def test_a_part_without_a_hundredth_of_the_area_is_named_and_does_not_decide():
 @pytest.mark.parametrize(
     ("told", "level"),
     [
-        ({"sizes": 1.05}, "good"),
-        ({"sizes": 4}, "poor"),
+        ({"sizes": 1.04}, "good"),
+        ({"sizes": 2}, "poor"),
         ({"unmapped": 0.001}, "good"),
         ({"unmapped": 0.99}, "unusable"),
     ],
@@ -181,15 +179,15 @@ def test_the_whole_counts(told, level):
     good = verdict(Measured())
     found = overall([good, good], **told)
     assert found.level == level
-    assert ("factor of 2" in found.sentence) == (told.get("sizes") == 4)
+    assert ("factor of 2" in found.sentence) == (told.get("sizes") == 2)
     assert ("no map" in found.sentence) == ("unmapped" in told)
 
 
 def test_squares_that_differ_by_what_an_eye_sees_are_told():
-    """An eye tells lengths that differ by a twentieth (Weber's fraction); the sizes are those of areas."""
+    """An eye tells lengths that differ by a twentieth (Weber's fraction)."""
     good = verdict(Measured())
-    assert overall([good, good], sizes=1.04**2) == good
-    assert "differ in size" in overall([good, good], sizes=1.06**2).sentence
+    assert overall([good, good], sizes=1.04) == good
+    assert "differ in size" in overall([good, good], sizes=1.06).sentence
 
 
 def two_sizes(scale):
@@ -204,7 +202,7 @@ def test_figures_of_several_parts_are_those_of_all_faces():
     maps = [form_map(part, automatic_structure(part)) for part in parts]
     found = whole_report(maps, [part_report(made) for made in maps], surface.repairs)
     assert found["whole"]["text"] == "2 parts: 2 cut open" and found["whole"]["sizes"] == 1
-    for name in ("capped_mean_angle", "density_ratio"):
+    for name in ("mean_angle", "size_range"):
         assert found["whole"][name] == pytest.approx(getattr(maps[0].quality, name), rel=1e-6)
 
 
