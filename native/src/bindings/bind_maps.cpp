@@ -189,9 +189,9 @@ void bind_plane_maps(py::module_& m) {
         py::arg("progress"));
   m.def("free_boundary_map", plane_map(&plane::free_boundary_map), py::arg("surface"), py::arg("solver"),
         py::arg("threads"), py::arg("progress"));
-  m.def("boundary_length", of_surface(&plane::boundary_length));
-  m.def("quarter_corners", of_surface(&plane::quarter_corners));
-  m.def("clear_corners", of_surface(&plane::clear_corners));
+  m.def("boundary_length", of_surface(&plane::boundary_length), py::arg("surface"));
+  m.def("quarter_corners", of_surface(&plane::quarter_corners), py::arg("surface"));
+  m.def("clear_corners", of_surface(&plane::clear_corners), py::arg("surface"));
 }
 
 // (#E,) flags
@@ -231,8 +231,8 @@ py::array evened_islands(const mesh::Surface& surface, const Flattening& flatten
 }
 
 // (#C, 2) UVs and the nets of the components. The facade has made the arguments.
-py::tuple joined(const mesh::Surface& surface, const Contiguous<double>& uv, const Contiguous<int>& joints,
-                 const Contiguous<char>& is_joinable) {
+std::pair<py::array, py::array> joined(const mesh::Surface& surface, const Contiguous<double>& uv,
+                                       const Contiguous<int>& joints, const Contiguous<char>& is_joinable) {
   uv::UvArray moved = Eigen::Map<const uv::UvArray>(uv.data(), uv.shape(0), 2);
   const auto pairs = rows<int, 4>(joints);
   const auto flags = values<char>(is_joinable);
@@ -241,7 +241,7 @@ py::tuple joined(const mesh::Surface& surface, const Contiguous<double>& uv, con
     const py::gil_scoped_release unlocked;
     nets = islands::joined(surface, moved, pairs, flags);
   }
-  return py::make_tuple(give_matrix(std::move(moved)), give(std::move(nets)));
+  return {give_matrix(std::move(moved)), give(std::move(nets))};
 }
 
 // (#F,) the part of each polygon

@@ -80,9 +80,9 @@ py::array carried_uv(const mesh::Surface& from, const Contiguous<int>& triangles
 }
 
 // p and q, (#T,) each, from (#V,) triangles and (#V, 3) barycentric coordinates.
-py::tuple map_derivatives(const mesh::Surface& from, const Contiguous<int>& triangles,
-                          const Contiguous<double>& barycentric, const mesh::Surface& to, int sign,
-                          const py::object& progress) {
+std::pair<py::array, py::array> map_derivatives(const mesh::Surface& from, const Contiguous<int>& triangles,
+                                                const Contiguous<double>& barycentric, const mesh::Surface& to,
+                                                int sign, const py::object& progress) {
   const moduli::VertexImages images{values(triangles), rows<double, 3>(barycentric)};
   Execution execution(1, callback(progress));
   moduli::MapDerivatives made;
@@ -92,7 +92,7 @@ py::tuple map_derivatives(const mesh::Surface& from, const Contiguous<int>& tria
     made = moduli::map_derivatives(from, images, to, sign, execution);
     execution.finish();
   }
-  return py::make_tuple(give(std::move(made.p)), give(std::move(made.q)));
+  return {give(std::move(made.p)), give(std::move(made.q))};
 }
 
 /// Arrays of `moduli::ConformalImages`.
@@ -181,12 +181,15 @@ void bind_equivalence(py::module_& m) {
         py::arg("uv"), py::arg("progress"));
   m.def("map_derivatives", &map_derivatives, py::arg("first"), py::arg("triangles"), py::arg("barycentric"),
         py::arg("second"), py::arg("sign"), py::arg("progress"));
-  m.def("form_slopes", &form_slopes);
+  m.def("form_slopes", &form_slopes, py::arg("surface"), py::arg("forms"));
   m.attr("isometry_steps") = moduli::kMostSteps;
-  m.def("short_basis", [](const Eigen::MatrixXd& form) { return copy(moduli::short_basis(form)); });
+  m.def(
+      "short_basis", [](const Eigen::MatrixXd& form) { return copy(moduli::short_basis(form)); }, py::arg("form"));
   m.def("similarity", &similarity, py::arg("first"), py::arg("second"), py::arg("sign"), py::arg("progress"));
   m.def("has_hyperelliptic_turn", &has_hyperelliptic_turn, py::arg("surface"), py::arg("genus"), py::arg("progress"));
-  m.def("symplectic_basis", [](const topology::IntegerMatrix& W) { return copy(topology::symplectic_basis(W)); });
+  m.def(
+      "symplectic_basis", [](const topology::IntegerMatrix& W) { return copy(topology::symplectic_basis(W)); },
+      py::arg("wedge_matrix"));
   m.def("compare", &compare, py::arg("first"), py::arg("second"), py::arg("allowed"), py::arg("needed"),
         py::arg("progress"));
   m.def("isometries", &isometries, py::arg("first"), py::arg("second"), py::arg("sign"), py::arg("slack"),

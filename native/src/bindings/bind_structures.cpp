@@ -70,12 +70,13 @@ void bind_laplace_problem(py::module_& m) {
       .def("weights", [](const Problem& p) { return copy(p.weights); });
 }
 
-py::list loops_of_vertices(const mesh::EdgeEnds& ends, const std::vector<std::vector<mesh::HalfedgeHandle>>& loops) {
-  py::list result;
+std::vector<py::array> loops_of_vertices(const mesh::EdgeEnds& ends,
+                                         const std::vector<std::vector<mesh::HalfedgeHandle>>& loops) {
+  std::vector<py::array> result;
   for (const auto& loop : loops) {
     std::vector<int> vertices;
     for (const auto h : loop) vertices.push_back(mesh::from_vertex(ends, h));
-    result.append(copy(vertices));
+    result.push_back(copy(vertices));
   }
   return result;
 }
@@ -121,14 +122,14 @@ DomainArrays domain_arrays(const Structure& s) {
 }
 
 // (faces, edges across which they were joined, half-edges of the boundary, edges of the tree, edges left over)
-py::tuple fundamental_domain(const Structure& s) {
+std::array<py::array, 5> fundamental_domain(const Structure& s) {
   DomainArrays found;
   {
     const py::gil_scoped_release unlocked;
     found = domain_arrays(s);
   }
-  return py::make_tuple(give(std::move(found.faces)), give(std::move(found.joined)), give(std::move(found.boundary)),
-                        give(std::move(found.tree)), give(std::move(found.left_over)));
+  return {give(std::move(found.faces)), give(std::move(found.joined)), give(std::move(found.boundary)),
+          give(std::move(found.tree)), give(std::move(found.left_over))};
 }
 
 void bind_topology(py::class_<Structure, StructurePointer>& type) {
@@ -144,9 +145,9 @@ void bind_topology(py::class_<Structure, StructurePointer>& type) {
       .def("fundamental_domain", &fundamental_domain);
 }
 
-py::list matrices(const std::vector<Eigen::MatrixXd>& list) {
-  py::list result;
-  for (const auto& matrix : list) result.append(copy(matrix));
+std::vector<py::array> matrices(const std::vector<Eigen::MatrixXd>& list) {
+  std::vector<py::array> result;
+  for (const auto& matrix : list) result.push_back(copy(matrix));
   return result;
 }
 
@@ -319,17 +320,20 @@ StructurePointer cut_along(const StructurePointer& s, const std::vector<int>& ed
 }
 
 void bind_actions(py::class_<Structure, StructurePointer>& type) {
-  type.def("prepare_uv", &prepare_uv)
+  type.def("prepare_uv", &prepare_uv, py::arg("progress"))
       .def("uv_solver", &uv_solver)
-      .def("uv", &uv)
+      .def("uv", &uv, py::arg("coefficients"))
       .def("basis_forms", &basis_forms)
       .def("balanced_coefficients", &balanced_coefficients)
       .def("disk_map", &disk_map)
       .def("sphere_map", &sphere_map)
       .def("cut_along", &cut_along, py::arg("edges"), py::arg("labels"))
-      .def("require_memory", [](const Structure& s, const std::string& what, std::int64_t bytes) {
-        structure::require_memory(what, bytes, s.options.memory_limit);
-      });
+      .def(
+          "require_memory",
+          [](const Structure& s, const std::string& what, std::int64_t bytes) {
+            structure::require_memory(what, bytes, s.options.memory_limit);
+          },
+          py::arg("what"), py::arg("bytes"));
 }
 
 void bind_values(py::class_<Structure, StructurePointer>& type) {

@@ -156,9 +156,10 @@ void bind_parts(py::module_& m) {
   using mesh::RefusedFaces;
   using mesh::TopologicalType;
   py::class_<TopologicalType>(m, "TopologicalType")
-      .def(py::init([](int genus, int loops) {
-        return TopologicalType{genus, loops};
-      }))
+      .def(py::init([](int genus, int boundary_count) {
+             return TopologicalType{genus, boundary_count};
+           }),
+           py::arg("genus"), py::arg("boundary_count"))
       .def_readonly("genus", &TopologicalType::genus)
       .def_readonly("boundary_count", &TopologicalType::boundary_count)
       .def("text", &TopologicalType::text);
@@ -214,7 +215,7 @@ void bind_surface(py::module_& m) {
       .def("components", &components)
       .def("topology", &mesh::topological_type)
       .def("euler_characteristic", &mesh::euler_characteristic)
-      .def("edge_distances", &edge_distances)
+      .def("edge_distances", &edge_distances, py::arg("lengths"), py::arg("sources"))
       .def("refuse_wild_vertices",
            [](const Surface& s) {
              const py::gil_scoped_release unlocked;
@@ -310,14 +311,14 @@ Splits splits(const ProgressiveMesh& mesh) {
           column(&Split::slot_r)};
 }
 
-py::list lift_loops(const ProgressiveMesh& mesh, int splits, const std::vector<std::vector<int>>& loops) {
+std::vector<py::array> lift_loops(const ProgressiveMesh& mesh, int splits, const std::vector<std::vector<int>>& loops) {
   std::vector<std::vector<int>> lifted;
   {
     const py::gil_scoped_release unlocked;
     lifted = topology::lift_loops(mesh, splits, loops);
   }
-  py::list result;
-  for (const auto& loop : lifted) result.append(copy(loop));
+  std::vector<py::array> result;
+  for (const auto& loop : lifted) result.push_back(copy(loop));
   return result;
 }
 
@@ -344,6 +345,9 @@ std::vector<LevelCorners> collapsed_corner_values(const ProgressiveMesh& mesh, c
 }
 
 void bind_progressive_mesh(py::module_& m) {
+  const auto viewed = [](auto member) {
+    return [member](py::object self) { return view(self.cast<const ProgressiveMesh&>().*member, self); };
+  };
   py::class_<Splits>(m, "Splits")
       .def_readonly("v_s", &Splits::v_s)
       .def_readonly("v_l", &Splits::v_l)
@@ -356,21 +360,24 @@ void bind_progressive_mesh(py::module_& m) {
   py::class_<ProgressiveMesh, Pointer>(m, "ProgressiveMesh")
       .def_static("make", &make, py::arg("surface"), py::arg("order"), py::arg("corner_type"), py::arg("corner_data"),
                   py::arg("progress"))
-      .def_static("from_bytes", &from_bytes)
+      .def_static("from_bytes", &from_bytes, py::arg("bytes"))
       .def("to_bytes", &to_bytes)
-      .def("level", &level)
+      .def("level", &level, py::arg("splits"))
       .def("restored", &restored)
       .def("splits", &splits)
-      .def("split_count",
-           [](const ProgressiveMesh& mesh, std::int64_t faces) { return progressive::split_count(mesh, faces); })
-      .def("vertex_map",
-           [](const ProgressiveMesh& mesh, int splits) { return copy(progressive::vertex_map(mesh, splits)); })
-      .def("lift_loops", &lift_loops)
-      .def("collapsed_corner_values", &collapsed_corner_values)
-      .def("base_half_edges",
-           [](const ProgressiveMesh& mesh, const mesh::Surface& surface, const std::vector<int>& map) {
-             return copy(topology::base_half_edges(mesh.base, surface, map));
-           })
+      .def("split_count", &progressive::split_count, py::arg("triangle_count"))
+      .def(
+          "vertex_map",
+          [](const ProgressiveMesh& mesh, int splits) { return copy(progressive::vertex_map(mesh, splits)); },
+          py::arg("splits"))
+      .def("lift_loops", &lift_loops, py::arg("splits"), py::arg("loops"))
+      .def("collapsed_corner_values", &collapsed_corner_values, py::arg("values"), py::arg("splits"))
+      .def(
+          "base_half_edges",
+          [](const ProgressiveMesh& mesh, const mesh::Surface& surface, const std::vector<int>& map) {
+            return copy(topology::base_half_edges(mesh.base, surface, map));
+          },
+          py::arg("surface"), py::arg("vertex_map"))
       .def("original_corners",
            [](const ProgressiveMesh& mesh) {
              const auto corners = progressive::original_corners(mesh);
@@ -383,15 +390,10 @@ void bind_progressive_mesh(py::module_& m) {
       .def_property_readonly("vertex_count", &ProgressiveMesh::vertex_count)
       .def_property_readonly("base_triangle_count",
                              [](const ProgressiveMesh& mesh) { return mesh.base.triangles.size(); })
-      .def_property_readonly("positions",
-                             [](py::object self) { return view(self.cast<const ProgressiveMesh&>().positions, self); })
-      .def_property_readonly(
-          "vertex_index", [](py::object self) { return view(self.cast<const ProgressiveMesh&>().vertex_index, self); })
-      .def_property_readonly(
-          "triangle_index",
-          [](py::object self) { return view(self.cast<const ProgressiveMesh&>().triangle_index, self); })
-      .def_property_readonly(
-          "face_offsets", [](py::object self) { return view(self.cast<const ProgressiveMesh&>().face_offsets, self); })
+      .def_property_readonly("positions", viewed(&ProgressiveMesh::positions))
+      .def_property_readonly("vertex_index", viewed(&ProgressiveMesh::vertex_index))
+      .def_property_readonly("triangle_index", viewed(&ProgressiveMesh::triangle_index))
+      .def_property_readonly("face_offsets", viewed(&ProgressiveMesh::face_offsets))
       .def_readonly("corner_type", &ProgressiveMesh::corner_type)
       .def_property_readonly("corner_data", [](const ProgressiveMesh& mesh) {
         return py::bytes(mesh.corner_data.data(), mesh.corner_data.size());

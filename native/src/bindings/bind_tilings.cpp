@@ -236,8 +236,10 @@ void bind_tiles(py::module_& m) {
       .def_readonly("is_full", &Relief::is_full);
   m.def("relief", &relief, "surface"_a, "coordinates"_a, py::kw_only(), "normals"_a, "corner_normals"_a, "are_reflex"_a,
         "shares"_a, "pixels"_a, "depth"_a, "level"_a, "tolerance"_a, "most_triangles"_a, "progress"_a);
-  m.def("corner_fans",
-        [](const Surface& surface, const Contiguous<bool>& is_sharp) { return copy(corner_fans(surface, is_sharp)); });
+  m.def(
+      "corner_fans",
+      [](const Surface& surface, const Contiguous<bool>& is_sharp) { return copy(corner_fans(surface, is_sharp)); },
+      "surface"_a, "is_sharp"_a);
   m.def("crossings", &crossings, "vertices"_a, "triangles"_a, py::kw_only(), "threads"_a);
   m.def("lines", &lines, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a);
   m.def("cells", &cells, "surface"_a, "coordinates"_a, py::kw_only(), "bricks"_a, "threads"_a);

@@ -2,8 +2,11 @@
 script clean."""
 
 import ast
+import importlib.machinery
+import importlib.util
 import inspect
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -14,9 +17,11 @@ import holomorph
 import numpy as np
 import pytest
 from holomorph import _native
+from repository import ROOT
 
 SCRIPT = Path(__file__).with_name("user_script.py")
 FOLDER = Path(holomorph.__file__).parent
+STUB = FOLDER / "_native.pyi"
 WRONG = "\n\nperiods: int = holomorph.Tiler.tile(3)\n"
 
 
@@ -58,16 +63,65 @@ def test_cached_properties_are_looked_at():
     assert "Surface.triangles" in dict(functions())
 
 
+# ---- the stub of the native core -----------------------------------------------------------------------------------
+
+
+def bound():
+    """{name: value} of all that the native core binds, members of its classes too."""
+    found = {name: value for name, value in vars(_native).items() if not name.startswith("__")}
+    for name, kind in list(found.items()):
+        if inspect.isclass(kind) and not issubclass(kind, Exception):
+            members = {member for member in vars(kind) if not member.startswith("_") or member == "__init__"}
+            found |= {f"{name}.{member}": getattr(kind, member) for member in members}
+    return found
+
+
+def test_the_stub_is_what_the_script_writes(monkeypatch):
+    pytest.importorskip("pybind11_stubgen")
+    loader = importlib.machinery.SourceFileLoader("stubs", str(ROOT / "scripts" / "stubs"))
+    script = importlib.util.module_from_spec(importlib.util.spec_from_loader("stubs", loader))
+    loader.exec_module(script)
+    assert script.STUB.read_text(encoding="utf-8") == script.generated(), "run scripts/stubs"
+
+
+def test_every_bound_member_has_a_signature():
+    tree = ast.parse(STUB.read_text(encoding="utf-8"))
+    declared = {}
+    for node in tree.body:
+        for inner in [node, *getattr(node, "body", [])]:
+            prefix = "" if inner is node else f"{node.name}."
+            name = getattr(inner, "name", None) or getattr(getattr(inner, "target", None), "id", "")
+            declared[prefix + name] = inner
+    members = bound()
+    assert len(members) > 350 and not [name for name in members if name not in declared and "__init__" not in name]
+    functions = [node for node in declared.values() if isinstance(node, ast.FunctionDef)]
+    parameters = [one for node in functions for one in node.args.args + node.args.kwonlyargs if one.arg != "self"]
+    assert all(node.returns for node in functions) and all(one.annotation for one in parameters)
+    assert not [one.arg for one in parameters if re.fullmatch(r"arg\d", one.arg)]
+    assert "__getattr__" not in declared
+
+
 def test_the_stub_has_the_errors_of_the_native_core():
-    tree = ast.parse((FOLDER / "_native.pyi").read_text(encoding="utf-8"))
+    tree = ast.parse(STUB.read_text(encoding="utf-8"))
     stub = {node.name: [base.id for base in node.bases] for node in tree.body if isinstance(node, ast.ClassDef)}
-    native = {
-        name: [base.__name__ for base in value.__bases__]
-        for name, value in vars(_native).items()
-        if inspect.isclass(value) and issubclass(value, Exception)
+    errors = {
+        name: value for name, value in bound().items() if isinstance(value, type) and issubclass(value, Exception)
     }
-    assert stub == native
+    assert {name: stub[name] for name in errors} == {
+        name: [base.__name__ for base in value.__bases__] for name, value in errors.items()
+    }
     assert isinstance(_native.__version__, str)
+
+
+def test_the_stub_passes_mypy(tmp_path):
+    pytest.importorskip("mypy")
+    copy = shutil.copy(STUB, tmp_path / "core.pyi")
+    command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir=cache", str(copy)]
+    run = subprocess.run(command, capture_output=True, text=True, timeout=600, cwd=tmp_path)
+    assert run.returncode == 0, run.stdout
+
+
+# ---- scripts of users ----------------------------------------------------------------------------------------------
 
 
 def checker(name):
