@@ -8,10 +8,13 @@ from .. import _native
 from .._native import InvalidMesh
 from ..core import arrays
 from .origin import AS_GIVEN, Origin
+from .other_packages import given_polygons
 
 
 def of_faces(vertices, faces, strict):
     """Makes one of the arguments of `Surface`."""
+    if faces is None:
+        return of_polygons(*given_polygons(vertices), strict)
     return _of(arrays.real(vertices, 3, "vertices"), *arrays.polygons(faces), strict)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,15 +27,15 @@ class Surface(Value):
 
     Parameters
     ----------
-    vertices : (#V, 3) reals
+    vertices : (#V, 3) reals; or, without faces, a mesh of trimesh, meshio, PyVista or Open3D, or any object that has
+        such arrays
     faces : (#F, 3) or (#F, 4) integers, or a list of lists of any sizes
     strict : refuse the whole mesh for any bad element. Else a mesh that is not a surface is cut until it is one: each
         fan of faces gets a vertex of its own, and `repairs.cuts` says where and why. Polygons and corners stay what
         they are. `refused` lists faces that are left out: those of fewer than three vertices, with coordinates that
         are not finite, at a vertex that is more than 1e9 times as far away as the mesh is large, or of parts without
-        area. Where most faces are separate, those whose sides run between the
-        same places, in single precision, are joined, see `repairs.joined_vertices`. Elements are then renumbered, see
-        `vertex_index`
+        area. Where most faces are separate, those whose sides run between the same places, in single precision, are
+        joined, see `repairs.joined_vertices`. Elements are then renumbered, see `vertex_index`
 
     Raises
     ------
@@ -46,7 +47,9 @@ class Surface(Value):
         if the surface is non-orientable.
     """
 
-    def __init__(self, vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], strict: bool = True) -> None:
+    def __init__(
+        self, vertices: Any, faces: ArrayLike | Sequence[Sequence[int]] | None = None, strict: bool = True
+    ) -> None:
         self._adopt(*checked_mesh.of_faces(vertices, faces, strict))
 
     @classmethod
