@@ -27,13 +27,13 @@ def given_polygons(mesh):
     if {"points", "faces"} <= has:
         return np.asarray(mesh.points), *_of_padded(arrays.integer(mesh.faces, "faces"))
     raise InvalidMesh(
-        f"a {type(mesh).__name__} alone is no mesh: pass Surface(vertices, faces), arrays of (#V, 3) reals and (#F, 3) "
+        f"one {type(mesh).__name__} is no mesh: pass Surface(vertices, faces), arrays of (#V, 3) reals and (#F, 3) "
         "integers, or an object with vertices and faces, points and cells, or points and faces"
     )
 
 
 def _of_blocks(blocks):
-    """Of the `cells` of meshio, the polygons, one kind after the other."""
+    """(corner_vertices, face_offsets) of the `cells` of meshio: the polygons, one kind after the other."""
     found = [arrays.polygons(block.data) for block in blocks if block.type in POLYGONS]
     if not found:
         kinds = ", ".join(sorted({block.type for block in blocks})) or "none"
@@ -43,7 +43,7 @@ def _of_blocks(blocks):
 
 
 def _of_padded(padded):
-    """Of the `faces` of PyVista, (n,): the number of corners before those of each polygon."""
+    """(corner_vertices, face_offsets) of the `faces` of PyVista: before the corners of each polygon stands how many."""
     count = len(padded)
     following = np.clip(np.arange(count) + 1 + np.maximum(padded, 0), 0, count)
     following = np.append(following, count)  # the end leads to itself

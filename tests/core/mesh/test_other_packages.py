@@ -63,7 +63,7 @@ def test_padded_faces_of_any_sizes(sizes):
 @pytest.mark.parametrize(
     ("mesh", "told"),
     [
-        (np.zeros((3, 3)), r"ndarray alone is no mesh: pass Surface\(vertices, faces\)"),
+        (np.zeros((3, 3)), r"one ndarray is no mesh: pass Surface\(vertices, faces\)"),
         (SimpleNamespace(points=POINTS), "an object with vertices and faces, points and cells"),
         (SimpleNamespace(points=POINTS, cells=[block("tetra", [[0, 1, 2, 3]])]), "its cells: tetra"),
         (SimpleNamespace(points=POINTS, cells=[]), "its cells: none"),
