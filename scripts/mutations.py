@@ -211,9 +211,9 @@ MUTATIONS = (
         ("like-size", "LIKE_SIZE = 1.095", "LIKE_SIZE = 1.19", SIZING),
     )
     | of(
-        PACKAGE + "maps/map_choice.py",
-        ("even", "EVEN = 1.41", "EVEN = 2.0", LOOKS),
-        ("good-islands", "GOOD, FLAT = 0.8, 0.3", "GOOD, FLAT = 8.0, 0.3", LOOKS),
+        PACKAGE + "maps/untiled.py",
+        ("most-curved", "MOST_CURVED = 8 *", "MOST_CURVED = 0.8 *", LOOKS),
+        ("good-islands", "GOOD = 0.8 ", "GOOD = 8.0 ", LOOKS),
     )
     | of(
         PACKAGE + "quality/appearance.py",

@@ -15,8 +15,8 @@ from .commands.console import Parser, ended, failed, tell, warn
 from .commands.relief_command import relief
 from .core.value import quoted
 from .files import formats, whole_file
-from .maps.map_choice import MAIN_MAPS
 from .maps.report import repairs_report, whole_report
+from .maps.request import MAIN_MAPS
 from .mesh.checks import SOLVERS, check_options, check_thresholds
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3

@@ -12,7 +12,7 @@ import pytest
 from batch_runs import BALANCED, outputs, run, torus_obj
 from holomorph.batch import picture
 from holomorph.files import formats
-from holomorph.maps.map_choice import EVENNESS
+from holomorph.maps.request import EVENNESS
 
 EVERYTHING = """
 [maps]

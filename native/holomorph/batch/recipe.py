@@ -14,7 +14,7 @@ import tomllib
 
 from ..core.value import quoted, shortened
 from ..files import formats, textures, whole_file
-from ..maps.map_choice import EVENNESS, MAIN_MAPS
+from ..maps.request import EVENNESS, MAIN_MAPS
 from ..mesh.checks import SOLVERS, as_float
 from ..tiling import tiling_options
 from ..tiling.tiling_options import MOST_POLES

@@ -39,13 +39,14 @@ def cuts_to_tips(surface, is_seam):
     return paths_to_border(surface, is_on_border, tips)
 
 
-def curvature(surface, most=np.inf):
+def curvature(surface, is_seam=None, most=np.inf):
     """The sum over the inner vertices of the angle that is missing around each, or too much, in radians.
 
+    is_seam : (#E,) edges whose vertices do not count
     most : vertices where it is more do not count, such as `TIP`
     """
-    no_seam = np.zeros(len(surface._native.edges), bool)
-    missing = np.abs(_defects(surface)[~on_border(surface, no_seam)])
+    is_seam = np.zeros(len(surface._native.edges), bool) if is_seam is None else is_seam
+    missing = np.abs(_defects(surface)[~on_border(surface, is_seam)])
     return float(missing[missing <= most].sum())
 
 

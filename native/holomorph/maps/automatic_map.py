@@ -10,9 +10,8 @@ from ..mesh.surface import Surface
 from ..tiling.tiling import Poles
 from .automatic_structure import AnyStructure
 from .map import Map
-from .map_choice import EVENNESS
 from .map_objects import map_objects
-from .request import Request
+from .request import EVENNESS, Request
 from .size import TOLERANCE, SizePolicy
 
 
@@ -37,11 +36,9 @@ def automatic_map(
 ) -> Map:
     """The `Map` of one connected part of any kind.
 
-    A part that is flat, or falls into flat pieces at its hard edges, gets these (`island_map`). On another one a
-    texture breaks off at the seams of the balanced map, and its size follows the density. Where there is a seam, or the
-    size range is above 1.4, tilings are tried. One takes the place of the balanced map where its size range is about
-    the same, its angle distortion at most a tenth larger, and hardly any area is flipped. Where there are islands too,
-    the map with the lowest visual cost is returned (`appearance`).
+    It is the one of lowest visual cost (`appearance.cost`) among flat islands (`island_map`), tilings, the balanced map
+    and maps in pieces, some of them tilings. A part that is flat, or falls into flat pieces at its hard edges, gets
+    these at once. What cannot cost less than what was found is not tried.
 
     Parameters
     ----------

@@ -13,10 +13,10 @@ from ..mesh.surface import Surface
 from ..tiling.tiling import Poles
 from .automatic_structure import AnyStructure
 from .map import Map
-from .map_choice import EVENNESS, Refusal
 from .map_objects import map_objects
-from .request import request_of_part
+from .request import EVENNESS, request_of_part
 from .size import TOLERANCE, SizePolicy
+from .tiling_search import Refusal
 
 
 def automatic_maps(

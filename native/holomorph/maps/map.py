@@ -54,6 +54,12 @@ class Map(Value):
     mixed: Mixed | None = None
     _evenness: float = 0.0
 
+    @classmethod
+    def of_tiling(cls, surface: Surface, structure: AnyStructure, tiling: Tiling) -> Map:
+        """The map that is a tiling, of `structure.tile`."""
+        why = f"it has no visible seams: size range {tiling.quality.size_range:.3g}"
+        return cls(surface, structure, tiling.uv, tiling.quality, np.empty(0), why, tiling)
+
     @property
     def kind(self) -> str:
         """What the map is.

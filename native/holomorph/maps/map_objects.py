@@ -15,13 +15,13 @@ from ..core.progress import scaled
 from ..core.side_by_side import side_by_side
 from ..mesh.copies import Copy, copies
 from .map import Map
-from .map_choice import REFUSALS, SOLVING, Refusal, Undecided, first_map
-from .mixed_sizing import Divided, MixedSizing, divided
+from .map_search import MapSearch
 from .request import Request
 from .size import TRIES, SizePolicy, best_window, relative_size, window_around
-from .sizing import Sizing
+from .tiling_search import REFUSALS, Refusal
 
 LEADING = 0.25  # part of the area of the largest part, from which on a part may say the density of all
+SOLVING = 0.5  # part of the work, for what needs no size
 TRYING = 0.9  # part of the work on tilings, for numbers of tiles
 SCALE_DIGITS = 3  # to which the logarithm of a copy's scale is rounded: parts that differ by less have the same tiles
 
@@ -67,20 +67,19 @@ def map_objects(
 def _map_parts(requests, alike, size, threads, progress):
     """([map or error of each part], `_Sized.leader`, `_Sized.size`)"""
     done = SOLVING if any(request.structure is None for request in requests) else 0.0
-    made = _first_maps(requests, alike, threads, scaled(progress, 0.0, done))
-    kinds = {Undecided: Sizing, Divided: MixedSizing}
-    sizings = {
-        k: kinds[type(found)](found, requests[k].poles, requests[k].tiling)
-        for k, found in made.items()
-        if type(found) in kinds
-    }
-    sized, leader, others = _sized(requests, alike, sizings, size, threads, scaled(progress, done, 1.0))
-    found = [sized[k] if k in sized else made[copy.first] for k, copy in enumerate(alike)]
+    searches = _searches(requests, alike, threads, scaled(progress, 0.0, done))
+    sized, leader, others = _sized(requests, alike, searches, size, threads, scaled(progress, done, 1.0))
+    found = [sized[k] if k in sized else _final(searches[copy.first]) for k, copy in enumerate(alike)]
     maps = [
         one if alike[k].first == k or not isinstance(one, Map) else _of_copy(one, requests[k], alike[k].scale)
         for k, one in enumerate(found)
     ]
     return maps, leader, others
+
+
+def _final(search):
+    """The map of a part whatever the size of squares, or how it is refused; None where that depends on it."""
+    return search.final if isinstance(search, MapSearch) else search
 
 
 def _of_copy(found, request, scale):
@@ -128,43 +127,39 @@ def _or_error(work: Callable[..., Any]) -> Callable[..., Any]:
     return guarded
 
 
-def _first_maps(requests, alike, threads, progress):
-    """{part: result of `first_map`, or its error}, without copies."""
+def _searches(requests, alike, threads, progress):
+    """{part: its `MapSearch`, or the error of that}, without copies."""
     firsts = [k for k, copy in enumerate(alike) if copy.first == k]
-
-    @_or_error
-    def work(i, count, step):
-        request = requests[firsts[i]]
-        given = request.surface, request.structure, request.main, request.evenness
-        found = first_map(*given, count, step, request.coefficients)
-        return divided(found, request.evenness, count, step) if request.main == "automatic" else found
-
+    work = _or_error(lambda i, count, step: MapSearch(requests[firsts[i]], count, step))
     found = side_by_side(work, [len(requests[k].surface.triangles) for k in firsts], threads, progress)
     return dict(zip(firsts, found))
 
 
-def _sized(requests, alike, sizings, size, threads, progress):
-    """The `_Sized` of parts that may get tilings. The maps of copies are those of the first part."""
-    if not sizings:
+def _sized(requests, alike, searches, size, threads, progress):
+    """The `_Sized` of parts whose map depends on the size of squares. The maps of copies are those of the first
+    part."""
+    members = [k for k, copy in enumerate(alike) if _final(searches[copy.first]) is None]
+    if not members:
         return _Sized({}, None, size)
-    members = [k for k, copy in enumerate(alike) if copy.first in sizings]
     names = {k: (alike[k].first, round(math.log(alike[k].scale), SCALE_DIGITS)) for k in members}
-    areas, leader = _areas(requests, names), None
-    density, share, made = size.density, 0.0, {}
-    if size.tolerance != 0:
-        leader = _leader(requests, alike, sizings, members)
-        share = requests[leader].surface.area / (sum(areas.values()) or 1.0)
-        share *= 1.0 if size.tolerance is None else 0.5  # the rest is for another map of this part
-        wanted, about = _on_first(density, alike[leader]), _or_error(sizings[alike[leader].first].about)
-        found = about(wanted, size.tries, scaled(progress, 0.0, share))
-        is_near = isinstance(found, Map) and found.is_tiled and size.takes(relative_size(found, wanted))
-        if is_near:
-            density = found.density / alike[leader].scale ** 2
-        if is_near or size.tolerance is None:
-            made[names[leader]] = found
+    areas, density, share, leader, made = _areas(requests, names), size.density, 0.0, None, {}
+    for k in _leaders(requests, names) if size.tolerance != 0 else ():
+        wanted, about = _on_first(density, alike[k]), _or_error(searches[alike[k].first].about)
+        part = 0.5 * requests[k].surface.area / (sum(areas.values()) or 1.0)  # the rest is for other maps of the part
+        found = about(wanted, size.tries, scaled(progress, share, share + part))
+        share += part
+        leads = isinstance(found, Map) and found.is_tiled and size.takes(relative_size(found, wanted))
+        if leads and (leader is None or found.tiling):
+            leader, made = k, {names[k]: found}
+        elif size.tolerance is None and leader is None:
+            made[names[k]] = found
+        if leads and found.tiling:
+            break  # pieces may have any density, a tiling of the whole part may not
+    if leader is not None:
+        density = made[names[leader]].density / alike[leader].scale ** 2
     wanted = {names[k]: _on_first(density, alike[k]) for k in reversed(members) if names[k] not in made}
-    window = size.window or (None if made else window_around())
-    more, window = _of_one_size(requests, sizings, wanted, areas, window, threads, scaled(progress, share, 1.0))
+    window = size.window or (window_around() if leader is None else None)
+    more, window = _of_one_size(requests, searches, wanted, areas, window, threads, scaled(progress, share, 1.0))
     others = SizePolicy(density, tolerance=0.0, window=window)
     made |= more
     return _Sized({k: made[names[k]] for k in members}, leader, others)
@@ -178,17 +173,14 @@ def _areas(requests, names):
     return areas
 
 
-def _leader(requests, alike, sizings, members):
-    """The part that says the density of all: the largest, or, where pieces of that may have any density, the largest
-    other one, if it is no smaller than `LEADING` of it."""
-    areas = {k: requests[k].surface.area for k in members}
-    largest = max(members, key=areas.get)
-    whole = [k for k in members if isinstance(sizings[alike[k].first], Sizing)]
-    leader = max(whole, key=areas.get, default=largest)
-    return leader if areas[leader] >= LEADING * areas[largest] else largest
+def _leaders(requests, names):
+    """The parts that may say the density of all, the largest first: the first one with a tiling does, or with pieces
+    that are tilings."""
+    areas = {k: requests[k].surface.area for k in {name: k for k, name in reversed(names.items())}.values()}
+    return sorted((k for k in areas if areas[k] >= LEADING * max(areas.values())), key=lambda k: (-areas[k], k))
 
 
-def _of_one_size(requests, sizings, wanted, areas, window, threads, progress):
+def _of_one_size(requests, searches, wanted, areas, window, threads, progress):
     """({(part, scale): its map or how it is refused}, the window) for densities by these. One of each part is tried
     before the others: it places the poles for all."""
     leading = list({name[0]: name for name in wanted}.values())
@@ -202,21 +194,20 @@ def _of_one_size(requests, sizings, wanted, areas, window, threads, progress):
         return dict(zip(names, made))
 
     def tried(name, step):
-        return sizings[name[0]].tried(wanted[name], TRIES, step)
+        return searches[name[0]].maps(wanted[name], TRIES, False, step)
 
     found = done(leading, tried, 0.0, TRYING / 2) | done(following, tried, TRYING / 2, TRYING)
-    refused = {name: each for name, each in found.items() if isinstance(each, Exception)}
     sizes = {
-        name: [relative_size(made, wanted[name]) for made in each.tilings]
+        name: [relative_size(made, wanted[name]) for made in each]
         for name, each in found.items()
-        if name not in refused
+        if not isinstance(each, Exception)
     }
     window = window or best_window(list(sizes.values()), [areas[name] for name in sizes])
 
-    def settled(name, step):
-        return sizings[name[0]].settled(found[name], wanted[name], window, step)
+    def fitted(name, step):
+        return searches[name[0]].fitted(found[name], wanted[name], window, step)
 
-    return refused | done(list(sizes), settled, TRYING, 1.0), window
+    return done(list(found), fitted, TRYING, 1.0), window
 
 
 def _on_first(density, copy):

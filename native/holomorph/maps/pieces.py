@@ -15,7 +15,7 @@ from ..mesh.origin import Origin
 from ..mesh.surface import Surface
 from ..quality.appearance import cost
 from ..quality.quality import Quality
-from .map_choice import FLAT, MOST_SOFT
+from .untiled import FLAT, MOST_CURVED, MOST_SOFT
 
 REST = -1  # name of polygons that are looked at with others
 SPECK = 0.01  # part of the area: less than that beside a piece does not divide a part
@@ -86,8 +86,9 @@ def smooth_pieces(surface: Surface, flat: Islands | None, names: Integers, threa
 
 
 def _may_be_smooth(part, flat):
+    curved = curvature(part, most=TIP)
     is_round = part.genus == 0 and part.boundary_count > 1  # a tube, perhaps with windows
-    return is_round or flat is not None and part.boundary_count > 0 and curvature(part, TIP) > SMOOTH
+    return curved <= MOST_CURVED and (is_round or flat is not None and part.boundary_count > 0 and curved > SMOOTH)
 
 
 def _piece(part, name, flat, threads):

@@ -16,7 +16,9 @@ from ..mesh.given_vertices import on_part
 from ..mesh.surface import Surface
 from ..tiling.tiling import Poles
 from .automatic_structure import AnyStructure
-from .map_choice import EVENNESS
+
+MAIN_MAPS = ("automatic", "seamless", "untiled", "balanced")
+EVENNESS = 0.5  # what suits textures: squares hardly differ in size, and their shear is not seen
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 from families import cylinder, geodesic_sphere, hemisphere, torus, united
 from holomorph.__main__ import main
-from holomorph.maps import map_choice as automatic
+from holomorph.cutting.island_map import IslandSearch
+from holomorph.maps.request import EVENNESS, Request
+from holomorph.maps.tiling_search import TilingSearch
 from holomorph.quality.quality import Quality
 
 SHARED = {"hand": "hand_lowres_b1.obj", "pretzel": "double-torus.obj"}
@@ -25,41 +27,6 @@ FAMILIES = {
 
 def surface_of(mesh):
     return holomorph.Surface.from_polygons(mesh.vertices, mesh.corners, mesh.offsets)
-
-
-def quality(ratio, sheared, flipped=0.0):
-    return SimpleNamespace(size_range=math.sqrt(ratio), mean_angle=sheared, flipped_part=flipped)
-
-
-def tiling(ratio, *others):
-    return SimpleNamespace(size_range=math.sqrt(ratio), quality=quality(ratio, *others), evenness=0.0)
-
-
-@pytest.mark.parametrize(
-    ("made", "balanced", "drawback"),
-    [
-        (tiling(5.0, 1.1), (200.0, 1.1), ""),
-        (tiling(5.0, 1.1), (math.inf, 1.1), ""),
-        (tiling(5.0, 1.1), (math.nan, 1.1), ""),
-        (tiling(5.0, 1.2), (5.0, 1.1), ""),  # as even, and without a seam
-        (tiling(5.2, 1.1), (5.0, 1.1), "less even"),
-        (tiling(5.0, 1.25), (200.0, 1.1), "more sheared"),
-        (tiling(6.5, 1.45, 0.0135), (1.1e5, 2.0), ""),  # a penguin of 200 quads
-        (tiling(6.5, 1.45, 0.03), (1.1e5, 2.0), "flip"),
-    ],
-)
-def test_a_tiling_is_to_be_about_as_even_and_hardly_more_sheared(made, balanced, drawback):
-    found = automatic._drawback(made, quality(*balanced))
-    assert drawback in found and bool(found) == bool(drawback)
-
-
-def test_an_even_map_without_seams_is_not_compared():
-    for seams in ([], [3]):
-        for ratio in (1.9, 2.1, math.inf, math.nan):
-            balanced = SimpleNamespace(
-                surface=SimpleNamespace(area=1.0), structure=SimpleNamespace(seams=seams), quality=quality(ratio, 1.0)
-            )
-            assert bool(automatic._why_it_stays(balanced)) == (not seams and ratio == 1.9)
 
 
 @pytest.fixture(params=[*FAMILIES, *SHARED])
@@ -119,10 +86,21 @@ def test_the_balanced_map_is_that_of_the_structure(name):
 
 
 def test_a_tiling_that_loses_much_is_refused_and_the_best_other_map_is_not():
-    tilings = [SimpleNamespace(quality=SimpleNamespace(lost_part=part)) for part in (0.01, 0.03)]
-    assert automatic._whole(tilings[0]) is tilings[0]
+    surface = surface_of(torus(24, 12))
+    uv = surface.vertices[surface.corner_vertices, :2]
+
+    class Losing:
+        """A structure whose tilings lose a part of the area."""
+
+        def __init__(self, part):
+            quality = SimpleNamespace(lost_part=part, size_range=1.0)
+            self.tile = lambda **_options: SimpleNamespace(quality=quality, uv=uv)
+
+    request = Request(surface, main="seamless", poles=2)
+    (made,) = TilingSearch(surface, Losing(0.01), request).of_density(1.0, 1, None)
+    assert made.quality.lost_part == 0.01
     with pytest.raises(holomorph.TopologyError, match="would lose 3 % of its area"):
-        automatic._whole(tilings[1])
+        TilingSearch(surface, Losing(0.03), request).of_density(1.0, 1, None)
     made = holomorph.automatic_map(surface_of(families.saw_blade()), main="untiled")
     assert made.kind == "flat" and made.quality.density_ratio == pytest.approx(1) and made.quality.lost_part == 0
     assert holomorph.automatic_map(surface_of(families.cube()), main="untiled").kind == "islands"
@@ -132,7 +110,7 @@ def test_a_tiling_that_loses_much_is_refused_and_the_best_other_map_is_not():
 def test_the_best_other_map_is_no_tiling(name):
     for part in surface_of(FAMILIES[name]()).components:
         found = holomorph.automatic_map(part, main="untiled")
-        assert found.tiling is None and found.evenness == automatic.EVENNESS and math.isfinite(found.quality.mean_angle)
+        assert found.tiling is None and found.evenness == EVENNESS and math.isfinite(found.quality.mean_angle)
 
 
 def test_a_part_whose_islands_are_refused_gets_another_map(monkeypatch):
@@ -141,7 +119,7 @@ def test_a_part_whose_islands_are_refused_gets_another_map(monkeypatch):
     def refuse(*_arguments, **_options):
         raise holomorph.InvalidMesh("all faces have zero area")
 
-    monkeypatch.setattr(automatic.IslandSearch, "best", refuse)
+    monkeypatch.setattr(IslandSearch, "best", refuse)
     for wanted in ("automatic", "untiled"):
         assert holomorph.automatic_map(surface_of(cylinder(16, 24)), main=wanted).islands is None
 
@@ -244,6 +222,25 @@ def test_vertices_are_those_of_the_surface_with_isolated_ones():
         other = holomorph.automatic_map(shifted, main=main_map, poles=[12, 205])
         assert np.array_equal(one.uv, other.uv)
         assert np.array_equal(one.seams + 5, other.seams) and np.array_equal(one.poles + 5, other.poles)
+
+
+@pytest.mark.parametrize("name", [*FAMILIES, "knot", "washer", "cube", "thick torus", "bowl"])
+def test_no_other_map_costs_less(name):
+    more = {
+        "knot": lambda: families.torus_knot(100, 8),
+        "washer": lambda: families.washer(20),
+        "cube": families.cube,
+        "thick torus": lambda: torus(30, 20, R=1.5),
+        "bowl": lambda: hemisphere(5),
+    }
+    for part in surface_of((FAMILIES | more)[name]()).components:
+        least = holomorph.automatic_map(part).cost
+        for wanted in ("seamless", "untiled", "balanced"):
+            try:
+                other = holomorph.automatic_map(part, main=wanted)
+            except holomorph.TopologyError:
+                continue
+            assert least <= other.cost + 1e-9, wanted
 
 
 def test_unknown_main_map():

@@ -5,11 +5,12 @@ import numpy as np
 import pytest
 from holomorph import Quality, Surface, automatic_map, automatic_maps, automatic_structure
 from holomorph.maps.arrangement import arranged
-from holomorph.maps.map_choice import UNEVEN, Undecided
+from holomorph.maps.map import Map
 from holomorph.maps.map_objects import map_objects
 from holomorph.maps.request import Request
 from holomorph.maps.size import LIKE_SIZE, SizePolicy, best_window, is_in, window_around
 from holomorph.maps.stretched import MOST_STRETCHED, stretched
+from holomorph.maps.tiling_search import UNEVEN, TilingSearch
 from holomorph.quality.distortion import drawn_densities
 from solved import surface_of
 
@@ -88,17 +89,23 @@ def blob(seed):
 
 @pytest.mark.parametrize("seed", range(8))
 def test_more_poles_are_tried_where_the_map_is_less_even_than_foretold(seed):
-    surface, options = blob(seed), {"tiles": 60, "direction": "upright", "evenness": 0.5}
-    undecided = Undecided(surface, automatic_structure(surface), None, evenness=0.5)
-    first = undecided._map(undecided.structure.tile(**options), "")
-    made = undecided.tiled("auto", options, None)
+    surface = blob(seed)
+    structure = automatic_structure(surface)
+    first = Map.of_tiling(surface, structure, structure.tile(60, direction="upright", evenness=0.5))
+    stages = []
+
+    def found(evenness):
+        search = TilingSearch(surface, structure, Request(surface, main="seamless", evenness=evenness))
+        (made,) = search.of_density(60 / surface.area, 1, lambda _fraction, stage: stages.append(stage))
+        return made
+
+    made = found(0.5)
     if first.drawn_range <= UNEVEN:
         assert np.array_equal(made.uv, first.uv)
     else:
-        assert made.drawn_range <= first.drawn_range
-    stages = []
-    again = undecided.tiled("auto", {**options, "evenness": 1.0}, lambda _fraction, stage: stages.append(stage))
-    assert again.evenness == 1.0 and "search for poles" not in stages
+        assert made.cost <= first.cost
+    stages.clear()
+    assert found(1.0).evenness == 1.0 and "search for poles" not in stages
 
 
 def test_what_jumps_both_ways_or_would_be_stretched_too_far_is_not():

@@ -1,0 +1,151 @@
+"""Which map a part gets: the one that an eye minds least. What may cost less than the best so far is tried."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from ..core.array_types import Progress
+from ..core.progress import scaled
+from ..core.value import quoted
+from ..mesh.checks import checked_evenness
+from ..quality.appearance import cost
+from .automatic_structure import automatic_structure
+from .map import Map, form_map
+from .piece_search import EXACT, PieceSearch
+from .request import MAIN_MAPS, Request
+from .size import Window, is_in, nearest, relative_size, window_around
+from .tiling_search import REFUSALS, Refusal, TilingSearch
+from .untiled import FLAT, GOOD, MOST_SOFT, Untiled
+
+TILING = 0.8  # part of the work, where pieces follow
+TOO_FEW = "too few whole tiles fit on it for squares of the wanted size"
+
+
+class MapSearch:
+    """The maps of one part by its `Request`. Its structure is made at once, and what is found at once; other maps when
+    a size is asked for.
+
+    Raises what `automatic_structure` raises.
+    """
+
+    def __init__(self, request: Request, threads: int | None = None, progress: Progress | None = None) -> None:
+        if request.main not in MAIN_MAPS:
+            raise ValueError(f"main is {quoted(request.main)}; one of {', '.join(MAIN_MAPS)} is needed")
+        checked_evenness(request.evenness)
+        surface, self._request, self._threads = request.surface, request, threads
+        structure = request.structure or automatic_structure(surface, threads=threads, progress=progress)
+        self._structure = structure
+        self._tilings = TilingSearch(surface, structure, request)
+        self._untiled = Untiled(surface, structure, request.evenness, threads)
+        self._pieces: PieceSearch | None = None
+        self._flat: Map | None = None
+        self.final = self._final(scaled(progress, 1.0, 1.0))
+
+    def _final(self, progress):
+        """The map where no other is tried."""
+        main, surface, structure = self._request.main, self._request.surface, self._structure
+        if main == "balanced":
+            coefficients, evenness = self._request.coefficients, self._request.evenness
+            return form_map(surface, structure, coefficients, evenness=evenness, progress=progress)
+        if main == "untiled":
+            return self._untiled.best("it has no tiling", progress)
+        if main == "seamless":
+            return None
+        if surface.area == 0:
+            return form_map(surface, structure, why="the surface has no area", evenness=self._request.evenness)
+        self._flat = self._untiled.at_once(progress)
+        return self._flat if self._flat and not self._may_be_better(self._flat.islands) else None
+
+    def maps(self, density: float, tries: int, leads: bool, progress: Progress | None) -> Sequence[Map]:
+        """The map of least cost; where that is a tiling, the ones with all the numbers of tiles that were tried.
+
+        tries : numbers of tiles; leads : whether the density may be another one, of which whole tiles are nearer
+
+        Raises what refuses a tiling that was asked for.
+        """
+        if self.final:
+            return [self.final]
+        best, tilings = self._flat, []
+        if best is None or self._is_ring or best.cost > GOOD:
+            tilings, why = self._whole(density, tries, scaled(progress, 0.0, TILING))
+            if self._request.main == "seamless":
+                return tilings
+            best = self._least(best, tilings and nearest(tilings, density), why, scaled(progress, TILING, TILING))
+        tries, step = tries if leads else 0, scaled(progress, TILING, 1.0)
+        best = self._in_pieces(best, density, tries, window_around(), step) or best
+        return tilings if best in tilings else [best]
+
+    def _whole(self, density, tries, progress):
+        """(The tilings of the whole part, why another map is better)."""
+        try:
+            return self._tilings.of_density(density, tries, progress), "a tiling would look worse"
+        except REFUSALS as error:
+            if self._request.main == "seamless":
+                raise
+            return [], f"no tiling can be made: {error}"
+
+    def _least(self, flat, tiling, why, progress):
+        """The one of least cost among these and the other maps of the whole part."""
+        found = [made for made in (flat, tiling) if made]
+        best = min(found, key=lambda made: made.cost, default=None)
+        best = self._untiled.balanced(best.cost if best else math.inf, why, progress) or best
+        if best is None:
+            return self._untiled.best(why, progress)
+        return self._untiled.islands(best.cost, progress) or best
+
+    def fitted(self, found: Sequence[Map] | Refusal, density: float, window: Window, progress: Progress | None) -> Map:
+        """The tiling of `maps` that is in the window, or stretched to the density, or turned until it is in the
+        window; else the best other map. What is asked for explicitly, such as poles that are chosen or moved, is
+        made with another density. Raises what refuses it."""
+        if isinstance(found, Exception):
+            if self._tilings.is_strict or not isinstance(found, REFUSALS):
+                raise found
+            return self._untiled.best(str(found), progress)
+        inside = [made for made in found if is_in(window, relative_size(made, density))]
+        made = nearest(inside or found, density)
+        if made.mixed and not inside:
+            return self._in_pieces(None, density, 0, EXACT, progress) or made
+        if not made.tiling:
+            return made
+        made = self._tilings.moved(inside or found, density, True, progress)
+        return made if inside else self._fitted(made, density, window, progress)
+
+    def about(self, density: float, tries: int, progress: Progress | None) -> Map:
+        """The map whose density is the nearest that this many numbers of tiles give."""
+        found = self.maps(density, tries, True, progress)
+        return self._tilings.moved(found, density, tries > 1, progress) if found[0].tiling else found[0]
+
+    def _fitted(self, made, density, window, progress):
+        stretched = self._tilings.stretched(made, density)
+        if stretched and not self._has_rival(stretched, progress) or self._tilings.is_strict:
+            return stretched or made
+        turned = self._tilings.turned(density, progress)
+        if turned and is_in(window, relative_size(turned, density)):
+            return turned
+        found, one = self._untiled.best(TOO_FEW, progress), self._untiled.one_island(made.tiling, TOO_FEW)
+        return one if one and one.cost < found.cost else found
+
+    def _has_rival(self, made, progress):
+        if self._request.main == "seamless":
+            return False
+        return bool(self._untiled.balanced(made.cost, "", progress) or self._untiled.islands(made.cost, progress))
+
+    def _in_pieces(self, rival, density, tries, window, progress):
+        if self._tilings.is_strict or not self._may_be_better(self._untiled.known):
+            return None
+        if self._pieces is None:
+            self._pieces = PieceSearch(self._request, self._structure, self._untiled.known, self._threads)
+        return self._pieces.best(rival, density, tries, window, progress)
+
+    def _may_be_better(self, flat):
+        """Whether islands have a seam across the smooth, or squares that differ, or there are none."""
+        if self._request.surface.vertices is None:
+            return False
+        return flat is None or flat.soft_length > MOST_SOFT or cost(flat.quality) > FLAT
+
+    @property
+    def _is_ring(self):
+        """Whether it may need no poles."""
+        surface = self._request.surface
+        return (surface.genus, surface.boundary_count) in ((0, 2), (1, 0))

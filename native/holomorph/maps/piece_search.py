@@ -1,0 +1,179 @@
+"""The map of a part in pieces between its hard edges, some of them with whole tiles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ..core.array_types import Integers, Progress
+from ..core.progress import scaled
+from ..cutting.hard_edges import bends
+from ..cutting.island_layout import Islands
+from ..cutting.island_map import HARD, SMOOTH
+from ..quality.appearance import HARD_SEAM, TURN
+from .automatic_structure import AnyStructure, automatic_structure
+from .map import Map
+from .mixed_map import mixed_map
+from .pieces import REST, Piece, cut_apart, names_of_pieces, smooth_pieces
+from .request import Request
+from .size import TRIES, Window, is_in, nearest, relative_size, window_around
+from .tiling_search import REFUSALS, TilingSearch
+from .tubes import closed, is_tube, opened
+from .untiled import FLAT, Untiled
+
+EXACT = (1.0, 1.0)  # the window of the wanted density alone
+
+
+@dataclass(frozen=True)
+class _Division:
+    """names : (#F,) the piece of each polygon; pieces : those that may get a tiling, the largest first"""
+
+    names: Integers
+    pieces: tuple[tuple[Piece, TilingSearch], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _Tiled:
+    """A piece with its tiling. is_tube : but for windows"""
+
+    piece: Piece
+    map: Map
+    is_tube: bool
+
+    @cached_property
+    def turn(self):
+        """The cost of rows that turn in its islands; 0 where poles turn them in the tiling, too."""
+        return TURN * self.piece.turn(self.map.uv) if self.is_tube and not len(self.map.poles) else 0.0
+
+
+class PieceSearch:
+    """The maps of a part in pieces, by each angle between faces that divides it in another way.
+
+    structure : of the part
+    flat : its islands, if there are any: only where these have a seam across the smooth or stretch a tiling is tried
+    """
+
+    def __init__(
+        self, request: Request, structure: AnyStructure, flat: Islands | None, threads: int | None = None
+    ) -> None:
+        self._request, self._surface, self._structure = request, request.surface, structure
+        self._flat, self._threads = flat, threads
+        self._found: list[_Division] | None = None
+        self._rest: dict[bytes, Map] = {}
+
+    def best(
+        self, rival: Map | None, density: float, tries: int, window: Window, progress: Progress | None
+    ) -> Map | None:
+        """The map of least cost, if it is below that of another one, to which that of rows that turn is added.
+
+        tries : numbers of tiles for the largest piece, whose density is then that of the others; 0 where it is given
+        window : of pieces' densities over the one that is wanted
+        """
+        if self._found is None:
+            self._found = list(self._divisions(scaled(progress, 0.0, 0.0)))
+        best, least, count = None, math.inf, len(self._found)
+        for n, division in enumerate(self._found):
+            worth = [pair for pair in division.pieces if self._is_worth(*pair, rival)]
+            tiled = self._tiled(worth, density, tries, window, scaled(progress, n / count, (n + 1) / count))
+            most = math.inf if rival is None else rival.cost + (self._turns(tiled) if rival.islands else 0.0)
+            made, minded = self._least_minded(division, tiled, scaled(progress, (n + 1) / count, (n + 1) / count))
+            if made and minded < min(most, least):
+                best, least = made, minded
+            if made and made.cost - HARD_SEAM * made.mixed.hard_length <= FLAT:
+                break
+        return best
+
+    def _divisions(self, progress) -> Iterator[_Division]:
+        """By each angle that divides the part in another way."""
+        bent, known = bends(self._surface), None
+        for degrees in (angle for angle in HARD if angle > SMOOTH):
+            names = names_of_pieces(self._surface, bent > math.radians(degrees))
+            if names.max() == names.min() or np.array_equal(names, known):
+                continue
+            known = names
+            pieces = smooth_pieces(self._surface, self._flat, names, self._threads or 0)
+            solved = tuple((piece, self._search(piece, progress)) for piece in pieces)
+            solved = tuple((piece, search) for piece, search in solved if search)
+            if solved:
+                yield _Division(names, solved)
+
+    def _search(self, piece, progress):
+        """None for a piece on which nothing can be solved: it becomes an island."""
+        try:
+            surface = closed(piece.surface)
+            structure = automatic_structure(surface, threads=self._threads, progress=progress)
+        except REFUSALS:
+            return None
+        is_ring = is_tube(surface) and self._request.poles == "auto"  # whole tiles fit around it, poles would turn them
+        return TilingSearch(surface, structure, replace(self._request, poles=0) if is_ring else self._request)
+
+    def _is_worth(self, piece, search, rival):
+        """Whether its tiling may be part of a map that costs less than a tiling of the whole part."""
+        if not (rival and rival.tiling and search.has_no_poles):
+            return True
+        return search.guess_without_poles() * piece.surface.area < rival.cost * self._surface.area
+
+    def _tiled(self, pieces, density, tries, window, progress):
+        """The `_Tiled` pieces that may be better than islands."""
+        made, count = [], len(pieces)
+        for n, (piece, search) in enumerate(pieces):
+            step, leads = scaled(progress, n / count, (n + 1) / count), tries > 0 and not made
+            tiling = self._of_density(search, density, tries if leads else 0, window, step)
+            if tiling is None:
+                continue
+            one = _Tiled(piece, opened(tiling, piece.surface), is_tube(search.surface))
+            if one.map.cost < piece.cost + one.turn:
+                density = one.map.density if leads else density
+                made.append(one)
+        return made
+
+    def _of_density(self, search, density, tries, window, progress):
+        """A tiling with any density, by some tries, or with one in the window, if need be stretched; None without."""
+        try:
+            tilings = search.of_density(density, tries or (1 if is_tube(search.surface) else TRIES), progress)
+        except REFUSALS:
+            return None
+        made = nearest(tilings, density)
+        if tries or is_in(window, relative_size(made, density)):
+            return made
+        stretched = search.stretched(made, density)
+        return stretched or (made if is_in(window_around(), relative_size(made, density)) else None)
+
+    def _least_minded(self, division, tiled, progress):
+        """(The map in pieces, or None; its cost with that of rows that turn in its islands)"""
+        choices = [tiled, [one for one in tiled if one.map.cost < one.piece.cost]]
+        best, least = None, math.inf
+        for kept in choices[: 1 + (len(choices[1]) < len(tiled))]:
+            found = self._glued(division, kept, progress) if kept else None
+            minded = found.cost + self._turns(one for one in tiled if one not in kept) if found else math.inf
+            if minded < least:
+                best, least = found, minded
+        return best, least
+
+    def _glued(self, division, tiled, progress):
+        """The map with these tilings; None where the rest has none."""
+        names = np.where(np.isin(division.names, [one.piece.name for one in tiled]), division.names, REST)
+        try:
+            parts = [one for one in cut_apart(self._surface, names) if names[one.face_index[0]] == REST]
+            rest = [self._untiled(one, progress) for one in parts]
+        except REFUSALS:
+            return None
+        maps = [one.map for one in tiled] + rest
+        return mixed_map(self._surface, self._structure, maps, self._request.evenness)
+
+    def _untiled(self, piece, progress):
+        """The map of a piece without tiling. Several divisions have the same pieces."""
+        key = piece.face_index.tobytes()
+        if key not in self._rest:
+            structure = automatic_structure(piece, threads=self._threads, progress=progress)
+            untiled = Untiled(piece, structure, self._request.evenness, self._threads)
+            self._rest[key] = untiled.best("it has no tiling", progress)
+        return self._rest[key]
+
+    def _turns(self, tiled):
+        """The cost of rows that turn, for the whole part, if these pieces are islands."""
+        return sum(one.turn * one.piece.surface.area for one in tiled) / self._surface.area

@@ -1,0 +1,157 @@
+"""The tilings of a part, of a wanted density: the numbers of poles and of tiles that give it."""
+
+from __future__ import annotations
+
+import math
+import numbers
+from collections.abc import Sequence
+
+from .._native import InvalidMesh, SolverError, TopologyError
+from ..core.array_types import Progress
+from ..core.progress import scaled
+from ..mesh.surface import Surface
+from .automatic_structure import AnyStructure
+from .map import Map
+from .request import Request
+from .size import is_in, nearest, relative_size, window_around
+from .stretched import stretched
+
+REFUSALS = InvalidMesh, TopologyError, SolverError  # what is said about one part, others go on
+Refusal = InvalidMesh | TopologyError | SolverError
+
+MOST_LOST = 0.02  # part of the area that a tiling may flip or let collapse: more is seen
+
+# What remains of the cost of the density that poles allow, once squares are rounded to whole tiles and evened, as it
+# was seen on some thirty meshes: about.
+ROUNDED = 0.9
+
+# The evened size range above which two more poles are tried, where that is quick, and tiles are so many that their
+# rounding decides less than the poles.
+UNEVEN, MORE_POLES, MOST_POLES, FEW_TRIANGLES, MANY_TILES = 1.73, 2, 16, 5000, 60
+
+MOST_TURNED = 0.5  # radians from the direction that is asked for, where no whole tiles of one size are nearer to it
+
+
+class TilingSearch:
+    """The tilings of a part by what is asked for: poles, and other options of `Structure.tile`. Poles are placed once.
+
+    surface : the part; or a piece of it, whose vertices poles are named by
+    structure : its conformal structure
+    """
+
+    def __init__(self, surface: Surface, structure: AnyStructure, request: Request) -> None:
+        self.surface, self._structure, self._request = surface, structure, request
+
+    @property
+    def has_no_poles(self) -> bool:
+        """Whether none are asked for."""
+        return isinstance(self._request.poles, numbers.Real) and self._request.poles == 0
+
+    @property
+    def is_strict(self) -> bool:
+        """Whether more is asked of a tiling than its density."""
+        options = self._request.options
+        is_chosen = not (self._is_open or self.has_no_poles)
+        is_bound = any(options.get(name) is not None for name in ("max_added", "allowed"))
+        return is_chosen or is_bound or bool(options.get("moves"))
+
+    def guess_without_poles(self) -> float:
+        """About what a tiling without poles costs, of which only the density is known."""
+        boundary = self._request.options.get("boundary", "automatic")
+        tiler = self._structure.tiler(0, evened=self._request.evenness > 0, surface=self.surface, boundary=boundary)
+        return 2 * ROUNDED * math.log(max(tiler.poles.size_range, 1.0))
+
+    def of_density(self, density: float, tries: int, progress: Progress | None) -> list[Map]:
+        """The tilings that this many numbers of tiles give, until the density is the wanted one. Raises what refuses
+        the first one."""
+        tilings: list[Map] = []
+        tiles, below, above = density * self.surface.area, 0.0, math.inf
+        for attempt in range(tries):
+            step = scaled(progress, attempt / tries, (attempt + 1) / tries)
+            try:
+                tilings.append(self._of_tiles({"tiles": tiles or None, "size_counts": tries > 1}, step))
+            except REFUSALS:
+                if not tilings:
+                    raise
+                break
+            size = relative_size(tilings[-1], density)
+            if is_in(window_around(), size):
+                break
+            below, above = (max(below, tiles), above) if size < 1 else (below, min(above, tiles))
+            tiles /= size
+            if not below < tiles < above:  # the density grows in steps
+                tiles = math.sqrt(below * above)
+        return tilings
+
+    def moved(self, tilings: Sequence[Map], density: float, size_counts: bool, progress: Progress | None) -> Map:
+        """The one whose density is nearest, with the poles moved that are to be moved after the rounding."""
+        made = nearest(tilings, density)
+        if not self._request.options.get("moves"):
+            return made
+        size = {"tiles": made.tiling.tiles, "size_counts": size_counts, "moves": self._request.options["moves"]}
+        return self._of_tiles(size, scaled(progress, 1.0, 1.0))
+
+    def stretched(self, made: Map, density: float) -> Map | None:
+        """The tiling stretched to a density; None where it cannot be."""
+        tiling = stretched(made.tiling, density / made.density, self._request.options.get("lattice", "square"))
+        return tiling and Map.of_tiling(self.surface, self._structure, tiling)
+
+    def turned(self, density: float, progress: Progress | None) -> Map | None:
+        """A tiling whose rows may run less level: other numbers of tiles fit around a limb. None where it is none."""
+        size = {"tiles": density * self.surface.area, "size_counts": True, "max_turn": MOST_TURNED}
+        try:
+            return self._of_tiles(size, progress)
+        except REFUSALS:
+            return None
+
+    def _of_tiles(self, size, progress):
+        """The one of least cost among those with the poles that are asked for, or, where that is left open, with as
+        many as the density asks for, with none, or with two more: on few faces the density is less even than it was
+        expected when poles were placed."""
+        step = scaled(progress, 1.0, 1.0)
+        if not self._is_open:
+            return self._with(self._request.poles, size, progress)
+        try:
+            made = self._with("auto", size, progress)
+        except REFUSALS:
+            if not self._has_tilings_without_poles:
+                raise
+            return self._with(0, size, step)
+        for count in self._other_counts(made):
+            try:
+                if count or self.guess_without_poles() < made.cost:
+                    made = min(made, self._with(count, size, step), key=lambda each: each.cost)
+            except REFUSALS:
+                continue
+        return made
+
+    def _other_counts(self, made):
+        """Yields the numbers of poles with which a tiling may cost less than this one."""
+        if not len(made.poles):
+            return
+        if self._has_tilings_without_poles:
+            yield 0
+        is_evened = made.evenness > 0 and made.tiling.tiles >= MANY_TILES
+        is_quick = len(self.surface.triangles) <= FEW_TRIANGLES
+        if is_evened and is_quick and made.drawn_range > UNEVEN and len(made.poles) < MOST_POLES:
+            yield len(made.poles) + MORE_POLES
+
+    @property
+    def _is_open(self):
+        """Whether the number of poles is."""
+        return isinstance(self._request.poles, str) and self._request.poles == "auto"
+
+    @property
+    def _has_tilings_without_poles(self):
+        return self.surface.genus > 0 or self.surface.boundary_count > 1
+
+    def _with(self, poles, size, progress):
+        """Raises what `Structure.tile` raises; TopologyError where too much is lost."""
+        options = {**self._request.tiling, "moves": {}, **size}
+        made = self._structure.tile(poles=poles, surface=self.surface, progress=progress, **options)
+        lost = made.quality.lost_part
+        if not lost < MOST_LOST:
+            raise TopologyError(
+                f"it would lose {100 * lost:.2g} % of its area, as the mesh is too coarse: subdivide it"
+            )
+        return Map.of_tiling(self.surface, self._structure, made)
