@@ -1,9 +1,11 @@
 """Conformal structures of surfaces: harmonic and holomorphic one-forms, period matrices, seamless UV maps.
 
 >>> import holomorph
->>> surface = holomorph.Surface.read("kitten.obj")
+>>> surface = holomorph.Surface.read("examples/pretzel.obj")
 >>> structure = holomorph.conformal_structure(surface)
 >>> uv = structure.uv(structure.balanced_coefficients())
+>>> print(structure.quality(uv).verdict.text)
+Even
 
 Conventions. A one-form is one real number per edge, for the direction from the lower to the higher vertex index. Forms
 are rows. A canonical basis has a_i . b_j = delta_ij; the holomorphic basis has period 1 over a_j for theta_j and 0 over

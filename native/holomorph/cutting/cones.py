@@ -31,6 +31,13 @@ def cut_to_cones(disk: Surface, most_stretch: float = 3.0, *, progress: Progress
     Cost: one map with a free boundary for each cut, and one more.
     Source: cone points, Kharevych, Springborn and Schroeder 2006, doi:10.1145/1138450.1138461; the map, Sawhney and
     Crane 2017, doi:10.1145/3132705.
+
+    Examples
+    --------
+    >>> roof = [(0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)]
+    >>> disk = holomorph.Surface(roof, [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
+    >>> print(disk.vertices.shape, holomorph.cut_to_cones(disk, 1.05).vertices.shape)
+    (5, 3) (6, 3)
     """
     check_type(disk, Surface)
     if (disk.genus, disk.boundary_count) != (0, 1) or disk.vertices is None:

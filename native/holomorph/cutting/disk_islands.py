@@ -28,6 +28,17 @@ def disk_islands(
     most_stretch : factor by which lengths may change in the flat map of a disk; where it is more, the disk is cut open
         by `cut_to_cones`. None: no such cuts
     seams, strict, hard_edges : as in `islands`; progress : as in `conformal_structure`
+
+    Raises what `islands` raises; ValueError for a factor that is not above 1; Cancelled.
+    Source: Gu, Wang, Yau (2003), § 4, for the seams; Sawhney & Crane (2017) for cone points.
+
+    Examples
+    --------
+    >>> corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    >>> sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    >>> cube = holomorph.Surface(corners, sides)
+    >>> print(len(holomorph.disk_islands(cube, hard_edges=60)))
+    6
     """
     asked = scaled(progress, 0.0, 0.0)  # whether to go on; how long it takes is not known
     disks = []

@@ -61,7 +61,18 @@ def island_map(
     evenness : as in `Structure.tile`
     threads, progress : as in `conformal_structure`
 
-    Raises Cancelled."""
+    Raises Cancelled.
+    Source: Sawhney & Crane (2017), section 4, for each piece; cuts and joints are ours, docs/choice.md.
+
+    Examples
+    --------
+    >>> corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    >>> sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    >>> cube = holomorph.Surface(corners, sides)
+    >>> found = holomorph.island_map(cube)
+    >>> print(found.count, len(found.seams))
+    1 7
+    """
     check_type(surface, Surface)
     evenness, threads = checked_evenness(evenness), check_threads(threads or None)
     hard_edges = None if hard_edges is None else real_number(hard_edges, "hard_edges", positive=True)

@@ -34,6 +34,15 @@ def islands(
     Raises TopologyError for other shapes or types, and for such vertices; ValueError for an invalid angle.
 
     Cost: O(#C log #C).
+    Source: ours, docs/choice.md.
+
+    Examples
+    --------
+    >>> corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    >>> sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    >>> cube = holomorph.Surface(corners, sides)
+    >>> print(len(holomorph.islands(cube, hard_edges=60)))
+    6
     """
     check_type(surface, Surface)
     if surface.vertices is None:

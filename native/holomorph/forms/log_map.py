@@ -45,6 +45,12 @@ def log_map(
 
     Cost: two solves for each pole and each holomorphic form.
     Source: Gu, Wang, Yau (2003), § 11.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> print(holomorph.log_map(surface, [0, 500]).residues)
+    [ 1.+0.j -1.+0.j]
     """
     count, limit = check_options(solver, threads), check_memory_limit(memory_limit)
     component, given = only_component(surface), _residues(residues)

@@ -65,6 +65,13 @@ def conformal_structure(
     Cost: 2n solves of the Laplacian for n complex forms (n = g closed, 2g + b - 1 with boundary), after one
     factorisation or the set-up of multigrid; 2 n #V numbers of memory.
     Source: Gu, Wang, Yau (2003), § 4 to § 8 and Eq. 13; the star by Gu & Yau (2003), projected.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> structure = holomorph.conformal_structure(surface)
+    >>> print(structure.period_matrix.shape, structure.certificate.holds)
+    (3, 3) True
     """
     count, narrowing = check_options(solver, threads), check_bounds(bounds, most_faces)
     if boundary not in BOUNDARIES:

@@ -54,6 +54,17 @@ def automatic_maps(
     allowed : (#V,) bool, where poles may be that are not chosen; parts without such vertices get none
     moves : (index of a pole in the tiling of its part, vertex) for each pole that is moved after the rounding
     direction, evenness, options, threads, progress : as in `automatic_map`
+
+    Raises ValueError and TypeError for arguments that do not fit; MemoryError; Cancelled. What a part itself raises
+    takes the place of its map.
+    Source: as `automatic_map`.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> (found,) = holomorph.automatic_maps(surface, tiles=64)
+    >>> print(found.kind, found.evenness)
+    tiling 0.5
     """
     parts = surfaces.components if isinstance(surfaces, Surface) else tuple(surfaces)
     for part in parts:

@@ -55,6 +55,14 @@ def automatic_structure(
 
     The first of corners, poles and boundary that is given counts; an empty list counts as not given. Raises what these
     functions raise.
+    Source: that of the function chosen; the choice among maps of disks is ours, docs/method/disks.md.
+
+    Examples
+    --------
+    >>> roof = [(0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)]
+    >>> disk = holomorph.Surface(roof, [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
+    >>> print(holomorph.automatic_structure(disk).map_kind)
+    rectangle
     """
     check_thresholds(thresholds, solver)
     options = {"solver": solver, "threads": threads, "progress": progress}

@@ -200,6 +200,14 @@ def form_map(
     progress : of evening, as in `conformal_structure`
 
     Raises ValueError for an evenness outside 0 to 1; SolverError; Cancelled.
+    Source: Gu, Wang, Yau (2003), § 7, for combinations; evening is ours, docs/method/evening.md.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> structure = holomorph.conformal_structure(surface)
+    >>> print(holomorph.form_map(surface, structure).kind)
+    forms
     """
     evenness = checked_evenness(evenness)
     if coefficients is None:

@@ -35,6 +35,14 @@ def double_cover(surface: Surface) -> Surface:
         if the surface has no boundary.
 
     Cost: linear.
+    Source: Gu, Wang, Yau (2003), § 8.
+
+    Examples
+    --------
+    >>> square = holomorph.Surface([(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
+    >>> double = holomorph.double_cover(square)
+    >>> print(double.genus, double.boundary_count, double.dual_vertex)
+    0 0 [0 1 2 3]
     """
     check_type(surface, Surface)
     native = surface._native
@@ -82,6 +90,16 @@ def symmetrised(double: Surface, forms: ArrayLike) -> Reals:
         if `double` is not a double cover.
     ValueError
         if `forms` has another number of values.
+    Source: Gu, Wang, Yau (2003), § 8 and Eq. 12.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> holed = holomorph.punch_holes(surface, [0])
+    >>> double = holomorph.double_cover(holed)
+    >>> forms = holomorph.conformal_structure(double).harmonic_forms
+    >>> print(holomorph.symmetrised(double, forms).shape == forms.shape)
+    True
     """
     check_type(double, Surface, "double")
     if double.dual_vertex is None:

@@ -36,6 +36,13 @@ def punch_holes(surface: Surface, vertices: ArrayLike) -> Surface:
         if the surface is intrinsic.
 
     Cost: linear, but for a sort of the sides of the polygons that go.
+    Source: Gu, Wang, Yau (2003), § 10: holes at fingertips.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> print(surface.boundary_count, holomorph.punch_holes(surface, [0, 500]).boundary_count)
+    0 2
     """
     component = only_component(surface)
     if component._native.intrinsic:

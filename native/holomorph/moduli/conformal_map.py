@@ -95,6 +95,16 @@ def conformal_map(a: Mapped, b: Mapped, *, tolerance: float = 0.0, progress: Pro
     SolverError where no start leads to a map; Cancelled.
 
     Cost: linear in both surfaces, beside that of `conformally_equivalent`.
+    Source: Torelli's theorem; the search for corresponding points is ours, docs/method/equivalence.md.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> moved = holomorph.Surface.from_polygons(2 * surface.vertices, surface.corner_vertices, surface.face_offsets)
+    >>> a, b = holomorph.conformal_structure(surface), holomorph.conformal_structure(moved)
+    >>> found = holomorph.conformal_map(a, b)
+    >>> print(np.allclose(found.of(moved.vertices), 2 * surface.vertices))
+    True
     """
     for structure in (a, b):
         if not isinstance(structure, Mapped):

@@ -36,6 +36,12 @@ def curve_period_matrix(coefficients: ArrayLike) -> PeriodMatrix:
     Source: Molin & Neurohr (2019), doi:10.1090/mcom/3351: integrals between branch points by Gauss and Chebyshev, along
     a tree. Theirs has the fastest integrals, ours the shortest edges, of which no two cross and no two meet at an angle
     below 60 degrees.
+
+    Examples
+    --------
+    >>> periods = holomorph.curve_period_matrix([1, 0, 0, -1])  # y^2 = x^3 - 1
+    >>> print(holomorph.siegel_reduction(periods).period_matrix.round(3))
+    [[0.5+0.866j]]
     """
     with np.errstate(all="ignore"):  # what is not finite leaves no bound of the error
         return _period_matrix(*_branch_points(coefficients))

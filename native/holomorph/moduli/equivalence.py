@@ -90,6 +90,12 @@ def conformally_equivalent(
 
     Cost: that of both structures; the search takes seconds at most, and beyond a limit is "undecided".
     Source: Plesken & Souvignier (1997), with lattice points near a point for its candidates.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> print(holomorph.conformally_equivalent(surface, surface).verdict)
+    equivalent
     """
     if real_number(tolerance, "tolerance") < 0:
         raise ValueError(f"tolerance is {quoted(tolerance)}; it must not be negative")

@@ -77,6 +77,15 @@ def igusa_invariants(
     Cost: some milliseconds; with a width that of `conformal_structure` with bounds, once to four times.
     Source: Streng (2014), doi:10.1090/S0025-5718-2013-02712-3, § 7: theta constants, with the invariants' definition by
     Igusa (1960).
+
+    Examples
+    --------
+    >>> side = 2 * np.sin(np.pi / 8)  # of a regular octagon, whose opposite sides are glued
+    >>> edges = [(i % 4, 4 + (i + 1) % 8, 4 + i) for i in range(8)]
+    >>> octagon = holomorph.Surface.from_edge_lengths([(1, 0, 0)] * 8, [(side, 1, 1)] * 8, edges)
+    >>> structure = holomorph.conformal_structure(octagon, bounds=1e-2)
+    >>> print(holomorph.igusa_invariants(structure).values.real.round())  # as of y^2 = x^5 - x
+    [400000. -20000.  -2000.]
     """
     check_type(structure, Structure, "structure")
     if not isinstance(structure, ConformalStructure) or structure._component.genus != 2:

@@ -38,6 +38,13 @@ def siegel_reduction(period_matrix: ArrayLike) -> SiegelReduction:
     """A `SiegelReduction` of a period matrix: symmetric, its imaginary part positive definite.
 
     Source: Deconinck, Heil, Bobenko, van Hoeij & Schmies (2004), doi:10.1090/S0025-5718-03-01609-0.
+
+    Raises ValueError for a matrix that is none of periods, or too badly conditioned to be reduced.
+
+    Examples
+    --------
+    >>> print(holomorph.siegel_reduction([[3.2 + 1.1j]]).period_matrix)
+    [[0.2+1.1j]]
     """
     omega, error = checked_period_matrix(period_matrix), getattr(period_matrix, "error", 0.0)
     g = len(omega)

@@ -52,6 +52,14 @@ def automorphisms(
     Raises TypeError for another kind of structure; Error where the search reaches its limit; Cancelled.
 
     Cost: grows with the number of matrices that the bounds allow.
+    Source: Plesken & Souvignier (1997), as in `conformally_equivalent`.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> structure = holomorph.conformal_structure(surface)
+    >>> print(holomorph.automorphisms(structure).order)
+    4
     """
     if not isinstance(structure, ConformalStructure):
         raise TypeError(f"automorphisms need the structure of a closed surface, not a {type(structure).__name__}")

@@ -33,6 +33,14 @@ def hyperelliptic(structure: ConformalStructure) -> Hyperelliptic:
     quotient is a sphere, "no" where the bounds exclude that an even theta constant vanishes. So both are proven.
 
     Raises TopologyError for other surfaces.
+    Source: Fay (1973): theta constants of hyperelliptic curves that vanish; docs/method/equivalence.md.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> structure = holomorph.conformal_structure(surface)
+    >>> print(holomorph.hyperelliptic(structure).verdict)
+    no
     """
     if not isinstance(structure, ConformalStructure) or structure._component.genus > 3:
         raise TopologyError("theta constants recognise hyperelliptic surfaces only if they are closed, of genus 1 to 3")

@@ -26,7 +26,18 @@ class Frame:
 
 def frame(surface: Surface, uv: ArrayLike, rotation: float = 0.0) -> Frame:
     """The `Frame` of a (#C, 2) map of the surface's polygon corners, rotated by `rotation` (radians, counter-clockwise)
-    about 0."""
+    about 0.
+
+    Raises ValueError for another shape of `uv`, or a rotation that is not finite.
+    Source: elementary.
+
+    Examples
+    --------
+    >>> square = holomorph.Surface([(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
+    >>> uv = square.vertices[square.corner_vertices][:, :2]
+    >>> print(holomorph.frame(square, uv, rotation=np.pi / 2).area)
+    2.0
+    """
     uv = _corners(uv, len(surface.corner_vertices))
     found = _native.frame(surface._native, uv, rotation=real_number(rotation, "rotation"), threads=0)
     return Frame(found.low, found.high, found.area)
@@ -49,6 +60,17 @@ def place(
     factor, origin, target : complex numbers
     placed : (n, 2) float64, C-contiguous: changed
     rows : (#C,) integers below n, all different: the row of `placed` of each corner; None where it is the corner's own
+
+    Raises ValueError for arrays of other shapes or types, and for rows outside of `placed`.
+    Source: elementary.
+
+    Examples
+    --------
+    >>> placed = np.zeros((2, 2))
+    >>> holomorph.place([(0, 0), (1, 0)], factor=2j, origin=0, target=1, placed=placed)
+    >>> print(placed)
+    [[1. 0.]
+     [1. 2.]]
     """
     if not (isinstance(placed, np.ndarray) and placed.dtype == np.float64 and placed.flags.carray):
         raise ValueError("placed must be a writable C-contiguous array of float64")

@@ -29,6 +29,15 @@ def cut_along(structure: AStructure, edges: ArrayLike) -> AStructure:
 
     Raises TopologyError where two vertices are joined by no edge, or a map would still jump elsewhere.
     Cost: O(#C log #C), no solve.
+    Source: Gu, Wang, Yau (2003), § 4: integrals on a fundamental domain, here of a cut that is given.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> structure = holomorph.conformal_structure(surface)
+    >>> seams = structure.edges[structure.seams]
+    >>> print(len(holomorph.cut_along(structure, seams).seams) <= len(seams))
+    True
     """
     check_type(structure, Structure, "structure")
     given, component = np.asarray(edges), structure._component

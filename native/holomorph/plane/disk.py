@@ -35,6 +35,17 @@ def disk_map(
     solver, threads, progress : as in `conformal_structure`
 
     Raises TopologyError for other surfaces, and for a centre that does not fit; SolverError; Cancelled.
+    Source: Riemann's mapping theorem by a differential with one pole; docs/method/disks.md.
+
+    Examples
+    --------
+    >>> x, y = np.mgrid[0:9, 0:9]
+    >>> corner = (9 * x + y)[:-1, :-1].ravel()
+    >>> faces = np.stack([corner, corner + 9, corner + 10, corner + 1], axis=1)
+    >>> sheet = holomorph.Surface(np.stack([x, y, 0 * x], axis=-1).reshape(-1, 3), faces)
+    >>> z = holomorph.disk_map(sheet, centre=40).disk_map()
+    >>> print(abs(z[40]).round(3), abs(z[0]).round(3))
+    0.0 1.0
     """
     count, component = check_options(solver, threads), _disk(surface, "a disk map")
     vertices, labels = own_vertices(surface, component, [] if centre is None else [centre], "centre")
@@ -60,6 +71,13 @@ def rectangle_map(
 
     Raises TopologyError for other surfaces, for corners that do not fit, and for a boundary of three edges;
     SolverError; Cancelled.
+    Source: the conjugate of a harmonic function with mixed conditions; docs/method/disks.md.
+
+    Examples
+    --------
+    >>> square = holomorph.Surface([(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
+    >>> print(round(holomorph.rectangle_map(square, [0, 1, 2, 3]).modulus, 6))
+    0.5
     """
     count, component = check_options(solver, threads), _disk(surface, "a rectangle")
     if corners is None:
@@ -80,7 +98,16 @@ def free_boundary_map(
 
     solver, threads, progress : as in `conformal_structure`
 
-    Raises TopologyError for other surfaces; SolverError; Cancelled."""
+    Raises TopologyError for other surfaces; SolverError; Cancelled.
+    Source: Sawhney & Crane (2017), section 4, doi:10.1145/3132705.
+
+    Examples
+    --------
+    >>> square = holomorph.Surface([(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
+    >>> flat = holomorph.free_boundary_map(square)
+    >>> print(flat.scale_factors.round(6))
+    [1. 1. 1. 1.]
+    """
     count, component = check_options(solver, threads), only_component(surface)
     native = _native.free_boundary_map(component._native, solver, count, progress)
     made = result(FreeBoundaryMap, surface, component, native, count)
@@ -94,7 +121,17 @@ def triangle_map(
 
     solver, threads, progress : as in `conformal_structure`
 
-    Raises TopologyError for other surfaces; SolverError; Cancelled."""
+    Raises TopologyError for other surfaces; SolverError; Cancelled.
+    Source: Riemann's mapping theorem: a disk with three corners has one such map; docs/method/disks.md.
+
+    Examples
+    --------
+    >>> triangle = holomorph.Surface([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> print(abs(holomorph.triangle_map(triangle).uv([])).round(3))
+    [[0.    0.   ]
+     [0.707 0.   ]
+     [0.    0.707]]
+    """
     count, component = check_options(solver, threads), _disk(surface, "a triangle")
     native = _native.triangle_map(component._native, solver, count, progress)
     made = result(TriangleMap, surface, component, native, count)

@@ -72,6 +72,17 @@ def verdict(quality: Quality, poles: int | None = None, added_distortion: float 
     Of the shear that evening added, what is not seen does not count.
 
     poles, added_distortion : of a seamless tiling, how many it has, and `Tiling.added_distortion`; None for other maps
+
+    Raises ValueError for an added distortion that is no number.
+    Source: ours; the limits were chosen on pictures of 63 meshes, docs/python/verdicts.md.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> structure = holomorph.conformal_structure(surface)
+    >>> quality = structure.quality(structure.uv(structure.balanced_coefficients()))
+    >>> print(holomorph.verdict(quality).text)
+    Even
     """
     if not quality.area.any():
         return Verdict("unusable", "No texture is visible: the map has no area", "unwrap it again")
@@ -101,6 +112,15 @@ def overall(
     sizes : how many times as long squares of one part are as those of another at most; from `SAME_SIZE` on no texture
         fits all parts
     unmapped : part of the faces that has no map, to which the limits `LOST` apply
+
+    Raises ValueError for other shapes, for negative areas, and for numbers that are none.
+    Source: ours; the limits were chosen on pictures of 63 meshes, docs/python/verdicts.md.
+
+    Examples
+    --------
+    >>> good, poor = holomorph.Verdict("good", "Even", ""), holomorph.Verdict("poor", "Uneven", "add poles")
+    >>> print(holomorph.overall([good, poor], [99.5, 0.5]).sentence)
+    Even; 1 small part is poor
     """
     areas = np.ones(len(verdicts)) if areas is None else arrays.numbers(areas, "areas")
     if areas.shape != (len(verdicts),) or not (areas >= 0).all():

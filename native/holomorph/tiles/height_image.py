@@ -32,6 +32,12 @@ def height_image(path: FilePath) -> Reals:
     The heights are the values in the file, of colours their brightness (Rec. 709); transparency is not looked at.
 
     Raises ValueError where it is not such a picture, has more than 2^24 pixels, or Pillow is not installed; OSError.
+    Source: ITU-R BT.709 for the brightness of colours.
+
+    Examples
+    --------
+    >>> print(holomorph.height_image("docs/pictures/tiling.jpg").shape)
+    (366, 1464)
     """
     try:
         from PIL import Image, UnidentifiedImageError

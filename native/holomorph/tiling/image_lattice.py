@@ -62,7 +62,14 @@ def image_lattice(pixels: ArrayLike) -> ImageLattice:
     ----------
     pixels : (h, w) or (h, w, 1 to 4), numbers of any kind, the lowest row first; the fourth channel is opacity
 
-    @throws ValueError another shape, or numbers that are not finite. Cost: an FFT of `MOST_PIXELS` squared
+    Raises ValueError for another shape, and for numbers that are not finite. Cost: an FFT of `MOST_PIXELS` squared
+    Source: the Wiener-Khinchin theorem; the limits are ours.
+
+    Examples
+    --------
+    >>> pixels = np.tile(np.eye(4), (4, 4))
+    >>> print(holomorph.image_lattice(pixels))
+    <ImageLattice: Tiles; rows shifted by 1/4, 64 cells in the image>
     """
     values = _checked(pixels)
     height, width = values.shape[:2]

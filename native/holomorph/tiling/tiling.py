@@ -214,7 +214,18 @@ def place_poles(
 
     A greedy start, then moves of one pole at a time, poles taken away and added anew where they do best, and a few more
     than asked for of which those stay that matter, on a level of the progressive mesh of about 10,000 triangles.
-    Deterministic."""
+    Deterministic.
+
+    Raises what `Tiler` raises: TopologyError for poles that do not fit, ValueError for other arguments; SolverError;
+    Cancelled.
+    Source: ours, docs/method/poles.md.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> print(len(holomorph.place_poles(surface, 4).vertices))
+    4
+    """
     return Tiler(surface, count, boundary=boundary, allowed=allowed, threads=threads, progress=progress).poles
 
 
