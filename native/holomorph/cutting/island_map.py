@@ -11,7 +11,7 @@ import numpy as np
 from ..core import arrays
 from ..core.array_types import Progress
 from ..core.progress import scaled
-from ..mesh.checks import check_threads, check_type, checked_evenness, real_number
+from ..mesh.checks import check_threads, check_type, checked_evenness
 from ..mesh.surface import Surface
 from ..quality.appearance import HARD_SEAM, SEAM, cost
 from ..quality.quality import Quality
@@ -39,7 +39,6 @@ FLATTENING, EVENING = 8, 15  # work for each triangle, in the unit of `IslandSea
 
 def island_map(
     surface: Surface,
-    hard_edges: float | None = None,
     *,
     evenness: float = 0.0,
     threads: int = 0,
@@ -47,8 +46,9 @@ def island_map(
 ) -> Islands | None:
     """The `Islands` of a connected surface; None where a piece cannot be flattened, as where it is closed.
 
-    The surface is cut along edges between faces that meet at more than an angle, from tips to these, and until all
-    pieces are disks but for small holes. Each is mapped with a free boundary and evened; where lengths change by more
+    The surface is cut along edges between faces whose normals differ by more than 60 degrees, and by more than 40 and
+    30 where pieces stretch or lie over themselves, whichever looks best; from tips to these edges, and until all pieces
+    are disks but for small holes. Each is mapped with a free boundary and evened; where lengths change by more
     than a factor of 2.5, it is cut open to its cone points too if that looks better, and parted where it lies over
     itself. Pieces are turned upright, and those that fit edge to edge are joined: first those that stay upright, longer
     edges first.
@@ -56,8 +56,6 @@ def island_map(
     Parameters
     ----------
     surface : Surface with positions
-    hard_edges : degrees between the normals of two faces; None for 60, and for 40 and 30 where pieces stretch or lie
-        over themselves, whichever looks best
     evenness : as in `Structure.tile`
     threads, progress : as in `conformal_structure`
 
@@ -75,9 +73,7 @@ def island_map(
     """
     check_type(surface, Surface)
     evenness, threads = checked_evenness(evenness), check_threads(threads or None)
-    hard_edges = None if hard_edges is None else real_number(hard_edges, "hard_edges", positive=True)
-    angles = HARD if hard_edges is None else (hard_edges,)
-    return IslandSearch(surface, angles, evenness, threads).best(progress=progress)
+    return IslandSearch(surface, HARD, evenness, threads).best(progress=progress)
 
 
 def one_island(surface, tiling):

@@ -15,7 +15,7 @@ from .automatic_structure import AnyStructure
 from .map import Map
 from .map_objects import map_objects
 from .request import EVENNESS, request_of_part
-from .size import TOLERANCE, SizePolicy
+from .size import SizePolicy
 from .tiling_search import Refusal
 
 
@@ -26,7 +26,6 @@ def automatic_maps(
     main: str | Sequence[str] = "automatic",
     tiles: float | None = None,
     density: float | None = None,
-    density_tolerance: float = TOLERANCE,
     poles: Poles = "auto",
     allowed: ArrayLike | None = None,
     moves: Sequence[tuple[int, int]] = (),
@@ -47,9 +46,9 @@ def automatic_maps(
     surfaces : the connected parts, or a Surface whose components they are
     structures : of all parts, as in `automatic_map`
     main : of all parts, or of each
-    tiles, density : tiles over all parts, in proportion to their areas, or per unit of area; default `usual_density`
-    density_tolerance : relative amount by which the median density of the largest part, and so of all, may differ from
-        the one given, where whole tiles cannot have it; 0 where other meshes have that density
+    tiles, density : tiles over all parts, in proportion to their areas, or per unit of area, which the
+        median of the largest part, and so of all, misses by 20 % at most, where whole tiles cannot have it; default
+        `usual_density`
     poles : "auto", a number for each part, or a list of vertices; "auto" on parts without any
     allowed : (#V,) bool, where poles may be that are not chosen; parts without such vertices get none
     moves : (index of a pole in the tiling of its part, vertex) for each pole that is moved after the rounding
@@ -77,7 +76,7 @@ def automatic_maps(
         request_of_part(part, structure, wanted, poles, allowed, moves, evenness, direction, options)
         for part, structure, wanted in zip(parts, structures or [None] * len(parts), mains)
     ]
-    ((made, _),) = map_objects([requests], SizePolicy.of(parts, tiles, density, density_tolerance), threads, progress)
+    ((made, _),) = map_objects([requests], SizePolicy.of(parts, tiles, density), threads, progress)
     for found in made:
         if isinstance(found, MemoryError):
             raise found

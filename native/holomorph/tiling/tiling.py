@@ -205,9 +205,7 @@ def place_poles(
     surface: Surface,
     count: Poles = "auto",
     *,
-    boundary: str = "automatic",
     allowed: ArrayLike | None = None,
-    threads: int | None = 0,
     progress: Progress | None = None,
 ) -> PlacedPoles:
     """`PlacedPoles` of a connected surface: where poles make the texture density most even. Arguments as in `Tiler`.
@@ -226,7 +224,7 @@ def place_poles(
     >>> print(len(holomorph.place_poles(surface, 4).vertices))
     4
     """
-    return Tiler(surface, count, boundary=boundary, allowed=allowed, threads=threads, progress=progress).poles
+    return Tiler(surface, count, allowed=allowed, progress=progress).poles
 
 
 def _too_sheared(made, max_added, genus):

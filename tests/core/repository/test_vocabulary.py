@@ -118,7 +118,6 @@ def of_addon(name):
 DOORS = {
     "Structure.tile": of_function(holomorph.ConformalStructure.tile),
     "Tiler.tile": of_function(holomorph.Tiler.tile),
-    "place_poles": of_function(holomorph.place_poles),
     "automatic_map": of_function(holomorph.automatic_map),
     "automatic_maps": of_function(holomorph.automatic_maps),
     "batch": of_class(Tiles),
