@@ -6,11 +6,10 @@ import what needs these inside their functions.
 """
 
 from . import native, preferences
-from .interface import panel, presets, shortcuts
+from .interface import menus, panel
 from .operators import (
     assets,
     bake,
-    carry,
     compare,
     drag,
     geometry,
@@ -43,15 +42,13 @@ MODULES = (
     relief,
     texel_operators,
     compare,
-    carry,
     bake,
     assets,
     overlay,
     tools,
     stretched,
-    presets,
     panel,
-    shortcuts,
+    menus,
 )
 
 

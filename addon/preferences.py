@@ -19,10 +19,4 @@ class HOLOMORPH_preferences(bpy.types.AddonPreferences):
         self.layout.prop(self, "show_in_viewport")
 
 
-def shows_in_viewport(context):
-    """Whether views are switched so that the texture is seen."""
-    addon = context.preferences.addons.get(__package__)
-    return addon is None or addon.preferences is None or addon.preferences.show_in_viewport
-
-
 register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_preferences])

@@ -19,7 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from modeling import subdivide
 
 import addon
-from addon.command_line import studio
+from addon.command_line import preview_scene
 from addon.scene import mesh_io
 
 HERE = Path(__file__).resolve().parent
@@ -115,7 +115,7 @@ def make_all(files, folder, make):
     addon.register()
     for name in wanted or files:
         shown = make(name)
-        studio.render(shown, str(Path(pictures).resolve() / f"{name}.png"), RESOLUTION, SAMPLES)
+        preview_scene.render(shown, str(Path(pictures).resolve() / f"{name}.png"), RESOLUTION, SAMPLES)
 
 
 def make(name):

@@ -15,7 +15,7 @@ import bpy
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import addon
 from addon import compatibility
-from addon.command_line import studio
+from addon.command_line import preview_scene
 from addon.results import tags
 from addon.things import geometry, tree
 
@@ -74,7 +74,7 @@ def main():
     paint(obj, material("Surface", below, 0.0))
     if kind == ["scatter"]:
         scatter(obj, made, source)
-    studio.render([obj, made], path, RESOLUTION, SAMPLES)
+    preview_scene.render([obj, made], path, RESOLUTION, SAMPLES)
 
 
 main()

@@ -17,7 +17,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import addon
 from addon import native
-from addon.command_line import studio
+from addon.command_line import preview_scene
 from addon.materials.periodic import mix, smoothstep
 from addon.scene import gathering, image_io, mesh_io, uv_maps
 
@@ -81,7 +81,7 @@ def main():
     bpy.ops.uv.holomorphic_tile(texture="IMAGE", source=own.name, size=float(size))
     if kind == ["smart"]:
         project(obj, float(size))
-    studio.render([obj], path, RESOLUTION, SAMPLES)
+    preview_scene.render([obj], path, RESOLUTION, SAMPLES)
 
 
 main()

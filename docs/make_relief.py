@@ -17,7 +17,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import addon
 from addon import compatibility
-from addon.command_line import studio
+from addon.command_line import preview_scene
 from addon.materials.patterns import TEXTURES
 from addon.scene import gathering, image_io, mesh_io
 from addon.things import geometry
@@ -116,7 +116,7 @@ def main():
         )
         made = bpy.data.objects[f"{obj.name} Relief"]
     paint(made)
-    studio.render([made], path, RESOLUTION, SAMPLES)
+    preview_scene.render([made], path, RESOLUTION, SAMPLES)
 
 
 main()

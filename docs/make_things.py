@@ -124,7 +124,7 @@ def main():
     mesh.polygons.foreach_set("use_smooth", np.full(len(mesh.polygons), kind != "bricks"))
     things = coloured(bpy.data.objects.new(kind, mesh), COLOURS[kind])
     shown = [things] if kind == "wires" else [coloured(body, GROUND), things]
-    module("command_line.studio").render(shown, png, RESOLUTION, SAMPLES)
+    module("command_line.preview_scene").render(shown, png, RESOLUTION, SAMPLES)
 
 
 main()

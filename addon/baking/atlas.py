@@ -10,7 +10,7 @@ from ..maps import packing
 from ..native import holomorph
 from ..scene import uv_maps
 from . import unfolding
-from .options import LEAST_SIDE, MOST_SIDE, USUAL_SIDE
+from .channels import LEAST_SIDE, MOST_SIDE, USUAL_SIDE
 
 FILLED = 0.5  # area of the islands before they are packed: about what they fill then
 SHRUNK = 0.7  # by the packer, for the margins: about

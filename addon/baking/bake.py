@@ -12,8 +12,8 @@ from .. import native
 from ..results import report, stored
 from ..scene import gathering, targets, uv_maps
 from ..solving.jobs import Work
-from . import atlas, room
-from .options import CHANNELS, ONE, BakeOptions
+from . import atlas, bake_scene
+from .channels import CHANNELS, ONE, BakeOptions
 
 UNFOLDING = 0.3  # of the work
 
@@ -108,7 +108,7 @@ class BakeWork(Work):
         channels = [channel for channel in CHANNELS if channel in options.channels]
         groups = [objects] if options.images == ONE else [[obj] for obj in objects]
         baked, count = [], len(objects) * len(channels)
-        with room.room() as made:
+        with bake_scene.bake_scene() as made:
             for index, group in enumerate(groups):
                 yield UNFOLDING * index / len(groups), f"unfolding {group[0].name}"
                 baked.append(_unfolded(context, group, options))
@@ -139,7 +139,7 @@ def _unfolded(context, group, options):
 
 
 def _copy(made, name, polygons, uv):
-    """(copy of an object in the room, name of its map for the bake)."""
+    """(copy of an object in the scene, name of its map for the bake)."""
     obj = bpy.data.objects[name]
     try:
         copy = made.add(obj)

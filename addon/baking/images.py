@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..native import holomorph
-from .options import COLOUR, HEIGHT
+from .channels import COLOUR, HEIGHT
 
 FIRST_TILE = 1001
 TILES_ACROSS = 10

@@ -8,11 +8,11 @@ import numpy as np
 
 from ..materials import baked, material
 from ..results import heat, restore, tags
-from ..results.outcome import Outcome
+from ..results.report import Outcome
 from ..scene import gathering, uv_maps
 from ..writing import transaction
 from . import images
-from .options import ONE, UDIM
+from .channels import ONE, UDIM
 
 
 @dataclass(frozen=True, eq=False)

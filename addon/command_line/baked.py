@@ -5,7 +5,7 @@ import bpy
 
 from .. import native
 from ..baking import bake, write
-from ..baking.options import BakeOptions
+from ..baking.channels import BakeOptions
 from ..writing import transaction
 from .options import UsageError
 

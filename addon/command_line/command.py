@@ -9,15 +9,14 @@ from pathlib import Path
 import bpy
 
 from .. import native
-from ..levels import source
-from ..levels.level_objects import Presentation
+from ..levels import level_objects
 from ..levels.levels import LevelOptions
-from ..materials import own
+from ..materials import user_texture
 from ..native import holomorph
-from ..operators.run import Run
+from ..operators.request import Run
 from ..results import report, stored
 from ..writing import transaction
-from . import baked, exchange, sources, studio
+from . import baked, exchange, preview_scene, sources
 from .options import UsageError, parse
 
 EXIT_REFUSED, EXIT_STRICT, EXIT_FAULT, EXIT_INTERRUPTED = 1, 3, 70, 130
@@ -98,7 +97,7 @@ def _check_places(options):
 
 
 def _make_maps(options):
-    """The `outcome.Outcome`. @throws UsageError"""
+    """The `report.Outcome`. @throws UsageError"""
     found = sources.collect(options)
     try:
         run = Run(options, found, _own_texture(options))
@@ -111,19 +110,23 @@ def _make_maps(options):
 
 
 def _own_texture(options):
-    """The `own.Own`, of the file where its name is that of no image. @throws ValueError"""
-    if options.texture == own.IMAGE and options.source not in bpy.data.images and Path(options.source).is_file():
+    """The `user_texture.Own`, of the file where its name is that of no image. @throws ValueError"""
+    if (
+        options.texture == user_texture.IMAGE
+        and options.source not in bpy.data.images
+        and Path(options.source).is_file()
+    ):
         options.source = bpy.data.images.load(str(Path(options.source).resolve())).name
-    return own.chosen(options)
+    return user_texture.chosen(options)
 
 
 def _add_levels(options, outcome):
     """Levels of detail of every object that got maps; they are added to the report's entries."""
     wanted, made = LevelOptions(options.levels, options.ratio), []
-    presentation = Presentation(side_by_side=options.side_by_side, finest=options.lod0)
+    presentation = level_objects.Presentation(side_by_side=options.side_by_side, finest=options.lod0)
     for entry in [entry for entry in outcome.entries if entry["done"]] if options.levels else ():
         obj = bpy.data.objects[entry["object"]]
-        found, told = source.make(bpy.context, obj, wanted, presentation)
+        found, told = level_objects.make(bpy.context, obj, wanted, presentation)
         entry["levels"] = [{"object": o.name, "triangles": len(o.data.polygons)} for o in found]
         outcome.problems += [] if found else [f"{obj.name}: no levels of detail: {told[0]}"]
         made += found
@@ -144,7 +147,7 @@ def _write_files(options, objects):
     if options.render is not None:
         with holomorph.files.whole_file.folder_beside(options.render) as folder:
             picture = folder / options.render.name
-            studio.render(objects, str(picture), options.resolution, options.samples)
+            preview_scene.render(objects, str(picture), options.resolution, options.samples)
             if not picture.is_file():
                 raise UsageError(f"{options.render}: the picture could not be written")
     if options.output is not None and not is_blend:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The options of the headless command, and which values of them cannot be.
 
-They have the names and the values of the operators' properties, for `operators.run.Run`.
+They have the names and the values of the operators' properties, for `operators.request.Run`.
 """
 
 import argparse
@@ -11,9 +11,7 @@ from pathlib import Path
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-from ..baking.options import CHANNELS, EACH, ONE, UDIM, USUAL_CHANNELS, BakeOptions
-from ..maps.options import DIALS
-from ..operators import map_choices, tile_choices
+from ..baking.channels import CHANNELS, EACH, ONE, UDIM, USUAL_CHANNELS, BakeOptions
 from ..operators.properties import MapProperties, SharedProperties
 from ..operators.tile_properties import MOST_POLES, TileProperties
 from . import exchange
@@ -49,7 +47,7 @@ def parse(arguments):
     parser.add_argument("--render", type=Path, help="where to save a picture (PNG)")
     parser.add_argument("--report", type=Path, help="where to save the report (JSON)")
     parser.add_argument("--object", action="append", default=[], help="only this object (may be repeated)")
-    _add_properties(parser, SharedProperties, *DIALS, "texture", "source", "size", "seams")
+    _add_properties(parser, SharedProperties, "evenness", "texture", "source", "size", "seams")
     _add_properties(parser, MapProperties, "main", "forms", "shown", "density", "margin", "rotation")
     _add_properties(parser, MapProperties, "checker_scale", "shape")
     text = "each object fills the UV square, instead of equal texels per metre"
@@ -120,8 +118,7 @@ def _take_over(options):
             options.boundary = "automatic"
         if options.poles.isdecimal():
             options.poles, options.pole_count = "COUNT", int(options.poles)
-    chosen = tile_choices if options.seamless else map_choices
-    options.choices = lambda: chosen
+    options.is_tiling = options.seamless
 
 
 def _add_choices(parser):

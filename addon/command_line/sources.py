@@ -8,8 +8,9 @@ import bpy
 
 from .. import compatibility
 from ..native import holomorph
+from ..operators import request
 from ..scene import gathering, mesh_io, targets
-from ..solving import choices
+from ..solving import jobs
 from . import exchange
 from .options import UsageError
 
@@ -39,13 +40,13 @@ def _request(options):
     solvers = holomorph.SOLVERS
     if options.solver not in solvers:
         raise UsageError(f"--solver: {options.solver!r} is not one of {', '.join(solvers)}")
-    asked = replace(options.choices().request(options), solver=options.solver)
-    if asked.faces != choices.ASKED:
-        asked = replace(asked, faces=choices.WHOLE)
+    asked = replace(request.choices(options), solver=options.solver)
+    if asked.faces != jobs.ASKED:
+        asked = replace(asked, faces=jobs.WHOLE)
     if options.pole:
-        return replace(asked, use=choices.POLES, vertices=tuple(options.pole))
+        return replace(asked, use=jobs.POLES, vertices=tuple(options.pole))
     if options.rectangle:
-        return replace(asked, use=choices.RECTANGLE, vertices=tuple(options.rectangle))
+        return replace(asked, use=jobs.RECTANGLE, vertices=tuple(options.rectangle))
     return asked
 
 

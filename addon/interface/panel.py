@@ -7,7 +7,6 @@ from .. import native
 from ..operators import (
     assets,
     bake,
-    carry,
     compare,
     drag,
     geometry,
@@ -17,8 +16,8 @@ from ..operators import (
     texel_operators,
     tools,
 )
-from ..operators.availability import CONVERT, CONVERTIBLE
 from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
+from ..operators.mixins import CONVERT, CONVERTIBLE
 from ..overlays import overlay
 from . import lines
 
@@ -115,7 +114,7 @@ class _ToolsPanel(_Panel):
         if self.bl_space_type == "VIEW_3D":
             column = self.layout.column(align=True)
             column.operator(compare.HOLOMORPH_OT_compare.bl_idname)
-            column.operator(carry.HOLOMORPH_OT_carry.bl_idname)
+            column.operator(compare.HOLOMORPH_OT_carry.bl_idname)
 
 
 def _draw_choices(layout):

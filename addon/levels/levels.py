@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..maps import mapped
-from ..maps.options import BALANCED, MapOptions
+from ..maps.mapped import BALANCED, MapOptions
 from ..native import holomorph
-from ..solving import jobs, solve
+from ..solving import jobs
 
 SOLVE_PART = 0.5  # share of the whole work, where a map has to be made first
 COLLAPSE_PART = 0.8  # share of the rest; then the maps are transferred
@@ -38,7 +38,7 @@ class LevelsWork(jobs.Work):
     are those of their maps; `mapped` is the `mapped.MappedObject` that was needed.
     """
 
-    task: object  # solve.Task
+    task: object  # jobs.Task
     names: list  # names of the maps that are transferred
     uv: np.ndarray  # (#C, m, 2), in the order of the polygons' corners
     needs_map: bool
@@ -53,7 +53,7 @@ class LevelsWork(jobs.Work):
     def work(self):
         start = SOLVE_PART if self.needs_map else 0.0
         if self.needs_map:
-            solved = solve.solve(self.task, self.watch.part(0, start))
+            solved = jobs.solve(self.task, self.watch.part(0, start))
             (self.mapped,) = mapped.mapped([solved], [MapOptions(forms=0, main=BALANCED)])
             self._add_main_map()
         surface = self.task.polygons.surface()

@@ -2,18 +2,76 @@
 """The maps of solves: the main one, of tilings or of forms part by part, and those of single forms. No bpy here."""
 
 from dataclasses import astuple, dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from .. import native
 from ..native import holomorph
 from ..scene.uv_maps import MAIN_MAP
-from . import forms
-from .options import AUTOMATIC, BALANCED, SEAMLESS, TILING, MapOptions
 
-MIXED_EVENED = 20_000  # triangles up to which maps are evened while forms are mixed: it takes 0.2 s
-
+# What the main map is. TILING: tilings alone, so that parts without one have no map.
+AUTOMATIC, SEAMLESS, BALANCED, ISLANDS, TILING = "AUTOMATIC", "SEAMLESS", "BALANCED", "ISLANDS", "TILING"
 MAINS = {AUTOMATIC: "automatic", SEAMLESS: "seamless", TILING: "seamless"}  # as `holomorph.automatic_maps` names them
+SQUARES_LIMIT = 10_000
+
+
+@dataclass(frozen=True)
+class TileOptions:
+    """The arguments of `holomorph.Structure.tile` for one object."""
+
+    tiles: float = 0.0  # tiles over the whole object; 0 lets the library choose
+    density: float = 0.0  # tiles for an area, instead; 0 for their number
+    size: tuple = ()  # values of a `holomorph.maps.size.SizePolicy` that counts instead, as it was found with others
+    poles: object = "auto"  # or a number for each part, or a tuple of vertices of the object
+    lattice: object = "square"  # a name, or its (2, 2) matrix as tuples
+    direction: object = "upright"  # or a vector in the frame of the solved polygons, or None
+    boundary: str = "automatic"
+    turn: float = 0.0  # radians by which the texture is rotated
+    quarters: int = 0  # turns of the map by 90 degrees after it is made
+    pole_group: str = ""  # the vertex group that `allowed` was read of
+    # Bytes of the bools that tell where poles may be that are not chosen; None for anywhere.
+    allowed: bytes | None = None
+    evenness: float = 0.5  # from 0 for angles to 1 for squares of one size
+    moved: tuple = ()  # (index of a pole in its part's tiling, vertex to which it was dragged)
+
+    @property
+    def is_chosen(self):
+        """Whether poles, places for them, or a number of tiles are chosen."""
+        return bool(self.tiles or self.moved) or self.allowed is not None or self.poles not in ("auto", 0)
+
+    @property
+    def made(self):
+        """What of it decides how a tiling is made, before it is laid out."""
+        return replace(self, quarters=0, pole_group="")
+
+
+@dataclass(frozen=True)
+class MapOptions:
+    """What the redo panel changes of the maps of one object. None of it needs a new solve."""
+
+    forms: int = 8  # basis forms that get a map of their own, at most
+    density: float = 1.0  # factor of UV lengths, about the middle of the UV square
+    rotation: float = 0.0  # radians, counter-clockwise, of every part
+    amounts: tuple = ()  # factor of each form's share in the main map; none means 1
+    turns: tuple = ()  # radians, phase of each form's share in the main map
+    margin: float = 0.02  # least distance between parts, in sides of the UV square
+    main: str = AUTOMATIC  # what the main map is
+    per_length: float = 0.0  # UV length for a length on the surface, at density 1; 0 fills the UV square
+    tiling: TileOptions = TileOptions()
+
+    @property
+    def package_main(self):
+        """The main map that the package is asked for: another than "balanced" where nothing else is chosen."""
+        is_mixed = any(amount != 1 for amount in self.amounts) or any(turn != 0 for turn in self.turns)
+        is_plain = self.density == 1 and self.rotation == 0 and not is_mixed
+        return MAINS.get(self.main, "balanced") if is_plain or self.main != AUTOMATIC else "balanced"
+
+    @cached_property
+    def arrangement(self):
+        """The `holomorph.arrangement.Arrangement`."""
+        lengths = self.density, self.rotation, self.margin, self.per_length
+        return holomorph.arrangement.Arrangement(*lengths, self.tiling.quarters)
 
 
 @dataclass(frozen=True)
@@ -55,7 +113,7 @@ class MappedObject:
         """The parts that have maps."""
         return [part for part in self.parts if not part.skipped]
 
-    @property
+    @cached_property
     def tiled(self):
         """The parts whose main map is a tiling, or has tilings of pieces."""
         return [part for part in self.parts if part.map and part.map.is_tiled]
@@ -65,7 +123,7 @@ class MappedObject:
         """The `holomorph.Map`s of the parts that have one."""
         return [part.map for part in self.done]
 
-    @property
+    @cached_property
     def unit_length(self):
         """The length on the surface of a UV unit of the main map, where the density is the median one; 0 for maps
         without area."""
@@ -80,20 +138,34 @@ class MappedObject:
 
     def maps(self):
         """Yields (name, (#C, 2) float32) for every map, the main one first; parts that lack it are zero there."""
-        yield MAIN_MAP, self._main_map() if self.packed is None else self.packed
+        arrangement, corners = self.options.arrangement, len(self.solved.polygons.corner_vertices)
+        main = self.packed
+        if main is None:
+            main = holomorph.arrangement.arranged(self.part_maps, corners, arrangement).astype(np.float32)
+        yield MAIN_MAP, main
         count = 0 if self.packed is not None else min(self.solved.form_count, self.options.forms)
         parts = [(one.surface, one.structure) for one in self.solved.done]
         for index in range(count):
-            uv = holomorph.arrangement.arranged_form(parts, index, self._corners, self.options.arrangement)
+            uv = holomorph.arrangement.arranged_form(parts, index, corners, arrangement)
             yield f"{MAIN_MAP} {index + 1}", uv.astype(np.float32)
 
-    def _main_map(self):
-        arranged = holomorph.arrangement.arranged(self.part_maps, self._corners, self.options.arrangement)
-        return arranged.astype(np.float32)
+    def squares_that_fit(self, across):
+        """Squares of a texture per UV unit so that about `across` of them lie along the diagonal of the bounding box of
+        the largest part where the density is the median one, at density 1; an even number."""
+        package = holomorph.arrangement
+        size = max(package.diagonal(made.surface) for made in self.part_maps)
+        unit = package.unit_length(self.part_maps, replace(self.options.arrangement, density=1.0))
+        return min(max(2 * round(across * unit / size / 2), 2), SQUARES_LIMIT) if unit > 0 else across
 
-    @property
-    def _corners(self):
-        return len(self.solved.polygons.corner_vertices)
+
+def shape_points(solved):
+    """(#V,3) conformal images in space of the parts that have one, zeros elsewhere; None if no part has one."""
+    found = [(holomorph.conformal_image(part.structure), part.surface.vertex_index) for part in solved.done]
+    points = np.zeros((len(solved.polygons.vertices), 3))
+    for image, own in found:
+        if image is not None:
+            points[own] = image[own]
+    return points if any(image is not None for image, _ in found) else None
 
 
 def follow(options, is_equal=False):
@@ -111,34 +183,31 @@ def mapped(solved, options, is_equal=False, progress=None):
 
     is_equal : whether squares have one size over all objects, so that a number of tiles is over all of them
     """
-    keys, count = [_asked(*each) for each in zip(solved, options)], len(solved)
-    groups = [list(range(count))] if is_equal else [[k] for k in range(count)]
-    scaled, areas, done, made = holomorph.core.progress.scaled, [_area(one) for one in solved], 0.0, []
-    for group in groups:
-        share = sum(areas[k] for k in group) / (sum(areas) or 1.0)
-        own = [solved[k] for k in group], [options[k] for k in group], [keys[k] for k in group]
-        made += _mapped_together(*own, scaled(progress, done, done + share))
+    count = len(solved)
+    if is_equal or count == 1:
+        made = _mapped_together(solved, options, progress)
+        return _of_one_length(made) if count > 1 else made
+    sizes, done, made = [one.polygons.face_count for one in solved], 0.0, []
+    for one, own, size in zip(solved, options, sizes):
+        share = size / (sum(sizes) or 1)
+        made += _mapped_together([one], [own], holomorph.core.progress.scaled(progress, done, done + share))
         done += share
-    return _of_one_length(made) if is_equal and count > 1 else made
+    return made
 
 
-def _area(solved):
-    return sum(component.surface.area for component in solved.done)
+def _mapped_together(solved, options, progress):
+    """With squares of one size. Maps are kept with each solve, under what was asked of all of them."""
+    together = tuple(_asked(*each) for each in zip(solved, options))
+    if not all((one.number, together) in one.maps for one in solved):
+        for one, kept in zip(solved, _made(solved, options, progress)):
+            one.keep_maps((one.number, together), kept)
+    return [_object(one, own, *one.maps[one.number, together]) for one, own in zip(solved, options)]
 
 
 def _asked(solved, options):
     """What decides how the parts of a solve are mapped, before they are laid out."""
-    mains = tuple(_main(component, options) for component in solved.done)
-    return solved.number, mains, options.main == TILING, options.tiling.made, options.amounts, options.turns
-
-
-def _mapped_together(solved, options, keys, progress):
-    """With squares of one size. Maps are kept with each solve, under what was asked of all of them."""
-    together = tuple(keys)
-    if not all((key[0], together) in one.maps for key, one in zip(keys, solved)):
-        for key, one, kept in zip(keys, solved, _made(solved, options, progress)):
-            one.keep_maps((key[0], together), kept)
-    return [_object(one, own, *one.maps[key[0], together]) for one, own, key in zip(solved, options, keys)]
+    is_tiling = options.main == TILING
+    return solved.number, options.package_main, is_tiling, options.tiling.made, options.amounts, options.turns
 
 
 def _object(solved, options, parts, size):
@@ -157,30 +226,41 @@ def _of_one_length(made):
     return [replace(one, options=replace(one.options, per_length=per_length)) for one in made]
 
 
-def _main(component, options):
-    """The main map that the library is asked for."""
-    is_plain = options.are_plain and not component.is_chosen and component.surface.area > 0
-    return MAINS.get(options.main, "balanced") if is_plain or options.main != AUTOMATIC else "balanced"
-
-
 def _made(solved, options, progress):
     """[(the `MappedPart`s of the `done` components, the size with which they are the same alone)] of each solve.
     Refusals are told. What no tiling fits gets another map, if what is chosen fits anywhere."""
-    wanted = options[0].tiling
-    components = [one.done for one in solved]
-    requests = [[_request(part, own) for part in parts] for parts, own in zip(components, options)]
-    size = wanted.size and holomorph.maps.size.SizePolicy(*wanted.size)
+    wanted, maps = options[0].tiling, holomorph.maps
+    requests = [_requests(one.done, own) for one, own in zip(solved, options)]
+    size = wanted.size and maps.size.SizePolicy(*wanted.size)
     if not size:
-        surfaces = [part.surface for parts in components for part in parts]
+        surfaces = [part.surface for one in solved for part in one.done]
         tiles = None if wanted.density else wanted.tiles or None
-        size = holomorph.maps.size.SizePolicy.of(surfaces, tiles, wanted.density or None)
-    found = holomorph.maps.map_objects.map_objects(requests, size, progress=progress)
-    return [(_parts(*each, maps), astuple(own)) for *each, (maps, own) in zip(components, requests, options, found)]
+        size = maps.size.SizePolicy.of(surfaces, tiles, wanted.density or None)
+    found = maps.map_objects.map_objects(requests, size, progress=progress)
+    each = zip(solved, requests, options, found)
+    return [(_parts(one.done, asked, own, made), astuple(size)) for one, asked, own, (made, size) in each]
+
+
+def _requests(components, options):
+    """The `holomorph.maps.request.Request`s for parts."""
+    wanted = options.tiling
+    return holomorph.maps.request.requests_of_parts(
+        components,
+        options.package_main,
+        wanted.poles,
+        None if wanted.allowed is None else np.frombuffer(wanted.allowed, bool),
+        wanted.moved,
+        wanted.evenness,
+        wanted.direction,
+        {"lattice": wanted.lattice, "boundary": wanted.boundary, "turn": wanted.turn or None},
+        options.amounts,
+        options.turns,
+    )
 
 
 def _parts(components, requests, options, made):
     """The `MappedPart`s of one object."""
-    reasons = ["" if hasattr(one, "uv") else native.sentence(one) for one in made]
+    reasons = [native.sentence(one) if isinstance(one, Exception) else "" for one in made]
     if options.main == TILING and options.tiling.is_chosen and all(reasons):
         return [MappedPart(component, skipped=reason) for component, reason in zip(components, reasons)]
     return [_part(*each) for each in zip(components, requests, made, reasons)]
@@ -194,21 +274,3 @@ def _part(component, request, made, refusal):
         given = request.surface, request.structure
         made = holomorph.automatic_map(*given, main="untiled", evenness=request.evenness)
     return MappedPart(component, made, not_seamless=refusal)
-
-
-def _request(component, options):
-    """The `holomorph.maps.request.Request` for a part. Evening is slow while forms are mixed."""
-    main, wanted = _main(component, options), options.tiling
-    is_slow = main == "balanced" and options.are_mixed and len(component.surface.triangles) > MIXED_EVENED
-    made = holomorph.maps.request.request_of_part(
-        component.surface,
-        component.structure,
-        main,
-        wanted.poles,
-        None if wanted.allowed is None else np.frombuffer(wanted.allowed, bool),
-        wanted.moved,
-        0.0 if is_slow else wanted.evenness,
-        wanted.direction,
-        {"lattice": wanted.lattice, "boundary": wanted.boundary, "turn": wanted.turn or None},
-    )
-    return replace(made, coefficients=forms.coefficients(component, options)) if main == "balanced" else made

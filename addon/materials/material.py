@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A material that shows a map, put over the mesh's own materials without touching them.
+"""A material that shows a map, put over the mesh's own materials without touching them; and views that show it.
 
 The material slots are linked to the object while it is shown, so the mesh keeps its own materials and
 `uncover` brings them back.
@@ -10,12 +10,13 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
+from .. import compatibility
 from ..compatibility import Values
 from ..scene import mesh_io
-from . import nodes, own_nodes, textures
+from . import nodes, textures, user_texture
 from .nodes import OURS
-from .own import IMAGE, MATERIAL, Own
 from .patterns import TEXTURES
+from .user_texture import IMAGE, MATERIAL, Own
 
 CHECKER = "CHECKER"
 CHECKER_ACROSS = 32  # squares that span an object where no number is asked for
@@ -87,13 +88,13 @@ def _showing_own(map_name, is_attribute, look):
     if own.kind == MATERIAL:
         material = block.copy()
         material.use_fake_user = False
-        own_nodes.redirect(material.node_tree, map_name, is_attribute, look.repeats, own)
+        user_texture.redirect(material.node_tree, map_name, is_attribute, look.repeats, own)
     else:
         ours = (m for m in bpy.data.materials if m.get(SHOWS) == shows and m.library is None and m.node_tree)
         material = next(ours, None) or bpy.data.materials.new("")
         if OURS not in material:
-            own_nodes.build_image(material, map_name, is_attribute, look.repeats, own)
-        own_nodes.adjust(material, look.repeats, own)
+            user_texture.build_image(material, map_name, is_attribute, look.repeats, own)
+        user_texture.adjust(material, look.repeats, own)
     if OURS not in material:
         material.name = f"{map_name} {own.name}"
         material[OURS], material[SHOWS] = True, shows
@@ -106,7 +107,7 @@ def unused_copies():
     for obj in bpy.data.objects if copies else ():
         copies -= {slot.material for slot in obj.material_slots}
         copies -= {*getattr(obj.data, "materials", ()), *dict(obj.get(BEFORE_BAKE, {})).values()}
-    return [block for material in copies for block in (material, *own_nodes.groups(material.node_tree))]
+    return [block for material in copies for block in (material, *user_texture.groups(material.node_tree))]
 
 
 def cover(obj, material):
@@ -195,3 +196,50 @@ def is_ours(material):
 def is_baked(material):
     """Whether it shows baked images, and so is more than a look at a map."""
     return material is not None and BAKED in material
+
+
+WITHOUT_TEXTURE = {"SOLID", "WIREFRAME"}  # kinds of shading
+SOLID_VIEW, MATERIAL_VIEW = "SOLID", "MATERIAL"  # kinds that show an image over the UV square, and a material as it is
+COLOUR = "TEXTURE"  # what the colour of `SOLID_VIEW` is
+# Custom property of a screen: index of an area -> kind and colour as they were, kind now.
+SHADING_BEFORE = "holomorph_shading"
+
+
+def show_in_views(window, shown=SOLID_VIEW):
+    """Sets one of these kinds of shading in the views that would not show a texture; the others stay."""
+    before = dict(window.screen.get(SHADING_BEFORE, {}))
+    for index, shading in _views(window):
+        kind = shading.type
+        if kind in WITHOUT_TEXTURE and (shown, kind, shading.color_type) != (SOLID_VIEW, SOLID_VIEW, COLOUR):
+            shading.type = SOLID_VIEW  # first: the colours that there are depend on it
+            before[index] = [*(before.get(index) or [kind, shading.color_type])[:2], shown]
+            shading.color_type = COLOUR
+            shading.type = shown
+    if before:
+        window.screen[SHADING_BEFORE] = before
+
+
+def restore_views(window):
+    """Takes back what `show_in_views` changed, except in views whose shading was chosen anew since."""
+    before = dict(window.screen.get(SHADING_BEFORE, {}))
+    for index, shading in _views(window):
+        kind, colour, shown = before.get(index, [None] * 3)
+        if shading.type == shown and (shown == MATERIAL_VIEW or shading.color_type == COLOUR):
+            shading.type = SOLID_VIEW
+            shading.color_type = colour
+            shading.type = kind
+    if before:
+        del window.screen[SHADING_BEFORE]
+
+
+def restore_without_textures(context):
+    """Restores the window's views once no mesh shows a texture of ours."""
+    meshes = [obj for obj in compatibility.objects_in(context.view_layer) if obj.type == "MESH"]
+    if context.window is not None and not any(is_covered(obj) for obj in meshes):
+        restore_views(context.window)
+
+
+def _views(window):
+    """(index as text, shading) of each 3D view."""
+    areas = enumerate(window.screen.areas)
+    return [(str(index), area.spaces.active.shading) for index, area in areas if area.type == "VIEW_3D"]

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import glyphs
+from . import periodic
 from .periodic import chance, grid, mix, noise, shade, smoothstep
 
 SIZE = 1024  # pixels across an image
@@ -52,7 +52,7 @@ def _sign(name, pixels):
     """(pixels, pixels) ink of a letter, a digit and an arrow on one tile."""
     tile = np.zeros((pixels, pixels))
     for glyph, height, x, y in ((name[0], 0.42, 0.09, 0.29), (name[1], 0.42, 0.43, 0.29), ("up", 0.24, 0.77, 0.47)):
-        mark = glyphs.ink(glyph, round(height * pixels))
+        mark = periodic.ink(glyph, round(height * pixels))
         column, row = round(x * pixels), round(y * pixels)
         tile[row : row + mark.shape[0], column : column + mark.shape[1]] = mark
     return tile

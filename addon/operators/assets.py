@@ -3,7 +3,7 @@
 
 import bpy
 
-from .availability import Explained
+from .mixins import Explained
 
 
 class HOLOMORPH_OT_assets(Explained, bpy.types.Operator):

@@ -5,8 +5,7 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from .. import native
-from .availability import OnMeshes
-from .modal import WorkOperator
+from .mixins import OnMeshes, WorkOperator
 from .properties import items
 
 CHANNELS = items(

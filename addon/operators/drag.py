@@ -8,8 +8,7 @@ import bpy
 from bpy.props import StringProperty
 
 from ..overlays import overlay
-from .availability import Explained
-from .modal import TIMER_SECONDS
+from .mixins import TIMER_SECONDS, Explained
 from .tile_properties import draw_tiling
 
 NAVIGATION = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "NDOF_MOTION"}

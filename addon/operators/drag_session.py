@@ -7,12 +7,12 @@ import numpy as np
 
 from .. import native
 from ..maps import mapped
-from ..maps.options import TILING, MapOptions
+from ..maps.mapped import TILING, MapOptions
 from ..results import report, stored, write
 from ..scene import targets, uv_maps
 from ..solving import jobs
 from ..writing import transaction
-from . import tile_choices
+from . import request
 
 AGAIN = "run Seamless Tiling again"
 
@@ -34,7 +34,7 @@ class Session:
         self._map = uv_maps.main_map(obj.data)
         if asked is None or self.target.refused or self._map not in obj.data.uv_layers:
             raise ValueError(f"{obj.name}: it has no tiling with poles to drag; {AGAIN}")
-        self._asked = replace(asked, allowed=tile_choices.allowed(asked.pole_group, obj))
+        self._asked = replace(asked, allowed=request.allowed(asked.pole_group, obj))
         self._write_options = write.options_of(stored.parsed(text)["dials"])
         self._task = targets.tasks([self.target])[0]
         self.mapped = None
@@ -117,7 +117,7 @@ class Session:
             self._is_shown = False
 
     def finish(self, context):
-        """Writes all that belongs to a tiling, and returns the `outcome.Outcome`."""
+        """Writes all that belongs to a tiling, and returns the `report.Outcome`."""
         self.restore()  # the step puts back what it finds
         with transaction.one_step(context, targets.objects([self.target])) as step:
             return write.write(step, [self.target], [self.mapped], self._write_options, time_has_passed=True)

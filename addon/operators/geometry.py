@@ -7,7 +7,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from .. import native
-from .modal import WorkOperator
+from .mixins import WorkOperator
 from .properties import ONCE, items
 
 PIECES = items(

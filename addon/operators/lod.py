@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 
-from .modal import WorkOperator
+from .mixins import WorkOperator
 
 ABOUT = {
     "levels": "Number of levels",
@@ -44,9 +44,9 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
             row.prop(self, name)
 
     def prepare(self, context):
-        from ..levels import source
+        from ..levels import level_objects
 
-        self._source = source.Source(context.view_layer.objects.active)
+        self._source = level_objects.Source(context.view_layer.objects.active)
         if self._source.target.refused:
             raise ValueError(f"{self._source.target.name}: {self._source.target.refused}")
 
@@ -64,9 +64,12 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
         return targets.objects([self._source.target])
 
     def finish(self, step, work, time_has_passed):
-        from ..levels.level_objects import Presentation
+        from ..levels import level_objects
 
-        name, presentation = self._source.target.name, Presentation(self.side_by_side, self.hidden, self.finest)
+        name, presentation = (
+            self._source.target.name,
+            level_objects.Presentation(self.side_by_side, self.hidden, self.finest),
+        )
         made, told = self._source.write(step, work, presentation, time_has_passed)
         if not made:
             return self.refuse(f"{name}: {told[0]}")

@@ -5,45 +5,46 @@ import bpy
 from bpy.props import FloatProperty
 
 from .. import native
-from .availability import OnMeshes
-from .modal import MODAL_FACES, MODAL_TILED_FACES, WorkOperator
-from .properties import ABOUT, HARD_EDGE, MapProperties, hard_edges_property, main_property
+from .mixins import MODAL_FACES, MODAL_TILED_FACES, OnMeshes, WorkOperator
+from .properties import ABOUT, HARD_EDGE, OWN_TEXTURES, MapProperties, hard_edges_property, main_property
 from .tile_properties import TileProperties
 
 
 class _MapsOperator(OnMeshes, WorkOperator):
-    """What the operators that make maps share. Each has one of the groups of properties, whose `choices` are made of
-    them."""
+    """What the operators that make maps share."""
 
     def prepare(self, context):
         from ..scene import gathering, targets
-        from . import run
+        from . import request
 
-        objects, request = gathering.mesh_objects(context), self.choices().request(self)
+        objects, choices = gathering.mesh_objects(context), request.choices(self)
         self._own = self._own_texture()
-        self._run = run.Run(self, targets.collect(objects, request), self._own)
+        self._run = request.Run(self, targets.collect(objects, choices), self._own)
 
     def _own_texture(self):
-        """The `own.Own` that was chosen. If there is none, the redo panel says why; it must not vanish, so that the
-        checker is shown.
+        """The `user_texture.Own` that was chosen. If there is none, the redo panel says why; it must not vanish, so
+        that the checker is shown.
         """
-        from ..materials import own
+        self.found = ""
+        if self.texture not in OWN_TEXTURES:
+            return None
+        from ..materials import user_texture
 
         try:
-            chosen = own.chosen(self)
+            chosen = user_texture.chosen(self)
         except ValueError as error:
             self.found = native.sentence(error)
             return None
-        self.found = chosen.text if chosen else ""
+        self.found = chosen.text
         return chosen
 
     def make_work(self, progress):
         return self._run.job(progress)
 
     def waiting_faces(self):
-        from ..solving import solve
+        from ..solving import jobs
 
-        waiting = [task for task in self._run.tasks if self.may_tile() or solve.KEPT.get(task.key) is None]
+        waiting = [task for task in self._run.tasks if self.may_tile() or jobs.KEPT.get(task.key) is None]
         return sum(task.polygons.face_count for task in waiting)
 
     def modal_faces(self):
@@ -97,9 +98,9 @@ def _forget_solves(*_arguments):
     """Drops the solves that were kept for the old file: another file has other meshes."""
     if native.problem():
         return
-    from ..solving import solve
+    from ..solving import jobs
 
-    solve.KEPT.clear()
+    jobs.KEPT.clear()
 
 
 _register, _unregister = bpy.utils.register_classes_factory(

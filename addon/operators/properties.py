@@ -8,10 +8,10 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from .. import native
-from ..maps.options import DIALS, TileOptions
 
 FORMS = 8  # whose share in the main map can be changed
 HARD_EDGE = math.radians(40)
+EVENNESS = 0.5  # as `mapped.TileOptions`, which needs NumPy
 
 
 def items(**texts):
@@ -129,7 +129,7 @@ class SharedProperties:
 
     drawn : names of its properties, in groups
     is_drawn(name) : whether a property has a meaning
-    choices() : the module that tells what its properties ask for
+    is_tiling : whether it makes tilings alone
     may_tile() : whether tilings are made, or tried
     """
 
@@ -139,9 +139,7 @@ class SharedProperties:
     source: StringProperty(name="Source", description=ABOUT["source"], default="")
     size: FloatProperty(name="Size", description=ABOUT["size"], default=0.0, min=0.0, subtype="DISTANCE", precision=3)
     found: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
-    evenness: FloatProperty(
-        name="Evenness", description=ABOUT["evenness"], default=TileOptions.evenness, min=0.0, max=1.0
-    )
+    evenness: FloatProperty(name="Evenness", description=ABOUT["evenness"], default=EVENNESS, min=0.0, max=1.0)
     seams: BoolProperty(name="Mark Seams", description=ABOUT["seams"], default=False)
     form_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
     tile_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
@@ -166,8 +164,9 @@ class SharedProperties:
 class MapProperties(SharedProperties):
     """A mixin for the maps operators."""
 
+    is_tiling = False
     drawn = (
-        ("main", *DIALS, "hard_edges", "most_stretch", "density", "equal", "margin", "rotation", "forms", "shown"),
+        ("main", "evenness", "hard_edges", "most_stretch", "density", "equal", "margin", "rotation", "forms", "shown"),
         ("checker", "texture", "source", "size", "checker_scale", "seams", "shape"),
         ("use_selection", "modifiers", "residues", "cut_at_seams", "boundary", "solver"),
     )
@@ -197,12 +196,6 @@ class MapProperties(SharedProperties):
     )
     checker_scale: FloatProperty(name="Squares", description=ABOUT["squares"], default=0.0, min=0.0, soft_max=200.0)
     shape: BoolProperty(name="Store Shape", description=ABOUT["shape"], default=False)
-
-    @staticmethod
-    def choices():
-        from . import map_choices
-
-        return map_choices
 
     def may_tile(self):
         return self.main != "BALANCED"

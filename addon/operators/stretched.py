@@ -6,7 +6,7 @@ import math
 import bpy
 from bpy.props import FloatProperty
 
-from .availability import AtOnce
+from .mixins import AtOnce
 from .tools import edit
 
 

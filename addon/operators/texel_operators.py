@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import FloatProperty, IntProperty
 
-from .availability import AtOnce
+from .mixins import AtOnce
 
 TEXELS, IMAGE = "holomorphic_texels", "holomorphic_image"  # properties of the window manager
 TEXELS_TEXT = "Texels of the image per metre of the surface"
@@ -25,7 +25,7 @@ class _TexelOperator(AtOnce):
 
     def read(self, _context, objects):
         from ..scene import targets
-        from ..solving.choices import SELECTED, Choices
+        from ..solving.jobs import SELECTED, Choices
 
         self._found = targets.collect(objects, Choices(faces=SELECTED))
         return targets.objects(self._found)

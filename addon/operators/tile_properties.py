@@ -5,7 +5,6 @@ import math
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-from ..maps.options import DIALS
 from .properties import ONCE, SharedProperties, items
 
 MOST_POLES = 16
@@ -57,8 +56,9 @@ ABOUT = {
 class TileProperties(SharedProperties):
     """A mixin for the tile operator."""
 
+    is_tiling = True
     drawn = (
-        ("tiles", *DIALS, "equal", "modifiers", "poles", "pole_count", "pole_group"),
+        ("tiles", "evenness", "equal", "modifiers", "poles", "pole_count", "pole_group"),
         ("lattice", "direction", "turn", "quarters", "boundary"),
         ("checker", "texture", "source", "size", "repeats", "seams", "empties"),
     )
@@ -81,12 +81,6 @@ class TileProperties(SharedProperties):
     boundary: EnumProperty(name="Boundary", description=ABOUT["boundary"], items=BOUNDARIES, default="automatic")
     repeats: IntProperty(name="Repeats", description=ABOUT["repeats"], default=1, min=1, soft_max=8)
     empties: BoolProperty(name="Poles as Empties", description=ABOUT["empties"], default=False)
-
-    @staticmethod
-    def choices():
-        from . import tile_choices
-
-        return tile_choices
 
     def may_tile(self):
         return True

@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import EnumProperty, FloatProperty
 
-from .availability import AtOnce
+from .mixins import AtOnce
 
 KINDS = (
     (
@@ -47,11 +47,11 @@ class HOLOMORPH_OT_restore_materials(AtOnce, bpy.types.Operator):
         return ""
 
     def act(self, step, objects):
-        from ..materials import viewport
+        from ..materials import material
         from ..results import restore
 
         restored = [restore.restore(obj) for obj in objects]
-        viewport.restore_without_textures(step.context)
+        material.restore_without_textures(step.context)
         return any(restored)
 
 
@@ -95,13 +95,13 @@ class HOLOMORPH_OT_remove_maps(AtOnce, bpy.types.Operator):
         return result
 
     def act(self, step, objects):
-        from ..materials import viewport
+        from ..materials import material
         from ..results import restore
 
         has_removed = False
         for obj in {obj.data: obj for obj in reversed(objects)}.values():
             has_removed |= restore.remove_maps(step, obj)
-        viewport.restore_without_textures(step.context)
+        material.restore_without_textures(step.context)
         return has_removed
 
 

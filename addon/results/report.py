@@ -1,14 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The report: what was computed, as JSON in a custom property of each object and in a text datablock."""
+"""What a run did: the report, as JSON in a custom property of each object and in a text datablock, and sentences for
+the user."""
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, dataclass, field, replace
 
 import bpy
+import numpy as np
 
-from ..maps.options import TILING
+from .. import compatibility, native
+from ..maps import coarse
+from ..maps.mapped import TILING
+from ..materials import material
 from ..native import holomorph
-from ..scene import faces, gathering, mesh_io
+from ..scene import gathering, mesh_io, uv_maps
+from . import stored
 
 PROPERTY = "holomorph_report"
 PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
@@ -19,10 +25,11 @@ TEXT = "Holomorphic Report"
 
 def object_report(obj, made, written=(), new_seams=0, write_options=None):
     """One object: its maps as written, the options with which they were, and the report of each part."""
-    package, solved = holomorph.report, made.solved
-    parts = [_part_report(part) for part in made.parts]
-    parts += [package.refused_report(refused) for refused in solved.surface.refused]
-    repairs = faces.repairs(solved)
+    solved, given = made.solved, [(part.component.surface, part.map, part.skipped) for part in made.parts]
+    about = holomorph.report.parts_report(given, solved.surface.refused, _repairs(solved))
+    for part, entry in zip(made.parts, about["components"]):
+        if part.component.note:
+            entry["not_followed"] = part.component.note
     dials = asdict(made.options)
     asked = dials.pop("tiling")
     del asked["allowed"]  # a vertex group of the object says it
@@ -37,19 +44,22 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
         "dials": dials | (asdict(write_options) if write_options else {}),
         "seams_added": new_seams,
-        **package.whole_report(made.part_maps, parts, repairs),
-        "repairs": package.repairs_report(repairs),
+        **about,
         "seconds": solved.seconds,
-        "components": parts,
     }
     return entry | ({"asked": asked} if made.options.main == TILING else {})
 
 
-def _part_report(part):
-    """The package's report of one `mapped.MappedPart`, and the choice that was not followed on it."""
-    package, component = holomorph.report, part.component
-    entry = package.skipped_report(component.surface, part.skipped) if part.skipped else package.part_report(part.map)
-    return entry | ({"not_followed": component.note} if component.note else {})
+def _repairs(solved):
+    """The repairs of a `solve.SolvedObject`, with faces as the mesh counts them; vertices of other faces are not
+    isolated."""
+    found, faces = solved.surface.repairs, solved.polygons.faces
+    if faces is None:
+        return found
+    none = np.empty(0, np.int64)
+    of_mesh = {name: faces[getattr(found, name)] for name in ("reversed_faces", "zero_area_faces")}
+    cuts = tuple(replace(cut, faces=faces[cut.faces]) for cut in found.cuts)
+    return replace(found, isolated_vertices=none, cuts=cuts, **of_mesh)
 
 
 def refusal_report(name, sentence):
@@ -95,3 +105,131 @@ def run_report(entries):
         "blender": bpy.app.version_string,
         "objects": entries,
     }
+
+
+NAMED = 4  # parts that a message numbers
+MERGE = "Mesh > Merge > By Distance"
+UNUSED = "your choice was not used"
+OVERLAP = "UV > Select Overlap shows where"
+CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
+
+
+@dataclass
+class Outcome:
+    """What a run did: names of the objects that got maps, sentences for the user, the report's entries."""
+
+    done: list = field(default_factory=list)
+    problems: list = field(default_factory=list)
+    notes: list = field(default_factory=list)
+    entries: list = field(default_factory=list)
+    forms: int = 0
+    looks: dict = field(default_factory=dict)  # `material.Look` of tilings (True) and of other maps, for all objects
+    coverings: dict = field(default_factory=dict)  # materials by what they show
+
+    @property
+    def tiles(self):
+        """How many tiles all tilings have, a whole number."""
+        return round(sum(tiling["tiles"] for entry in self.entries for tiling in stored.tilings_of(entry)))
+
+    def covering(self, shown, look):
+        """The material that shows a `uv_maps.WrittenMap`, the same for all objects."""
+        key = shown.name, shown.kind, look
+        if key not in self.coverings:
+            self.coverings[key] = material.showing(shown.name, shown.kind == "attribute", look)
+        return self.coverings[key]
+
+    def refuse(self, name, sentence):
+        self.problems.append(f"{name}: {sentence}")
+        self.entries.append(refusal_report(name, sentence))
+
+    def skip(self, obj, made):
+        """Adds an object of which no part has a map."""
+        self.problems += _problems(obj, made)
+        self.entries.append(object_report(obj, made))
+
+    def add(self, obj, target, made, written, entry):
+        """Adds an object that got its maps."""
+        self.done.append(obj.name)
+        self.entries.append(entry)
+        self.forms = max(self.forms, made.solved.form_count)
+        self.judge(obj, entry)
+        self.problems += _problems(obj, made)
+        if len(made.solved.surface.repairs.joined_vertices):
+            self.notes.append(f"{obj.name}: most faces were separate, and were joined for the maps; {MERGE} joins them")
+        if target.polygons.faces is None:
+            self.notes += _modifier_notes(obj, made.solved)
+        extra = sum(w.kind == "attribute" for w in written)
+        if extra:
+            maps_are = "1 map is a corner attribute" if extra == 1 else f"{extra} maps are corner attributes"
+            self.notes.append(f"{obj.name}: {maps_are}, because no UV map slots are free")
+        if obj.override_library is not None:
+            self.notes.append(f"{obj.name} is a library override: its report is lost when the file is reopened")
+        self.notes += [target.note] if target.note else []
+
+    def judge(self, obj, entry):
+        """Adds the verdict on an object's map: among the problems where no texture can be put on."""
+        found, whole = stored.verdict(entry), entry["whole"]["text"]
+        told = f"{whole}. {found.text}" if whole else found.text
+        (self.notes if found.is_fit else self.problems).append(f"{obj.name}: {told}")
+        limit = holomorph.quality.verdicts.OVERLAPPING[0]
+        overlapping = [
+            str(index)
+            for index, part in enumerate(entry["components"], 1)
+            if part["done"] and (part["main_map"]["overlapping_part"] or 0.0) > limit
+        ]
+        if overlapping:
+            which = _numbered("island", overlapping)
+            which += " overlaps itself" if len(overlapping) == 1 else " overlap themselves"
+            self.problems.append(f"{obj.name}: {which}: {OVERLAP}")
+        count = entry["faces_without_area"]
+        if count:
+            self.problems.append(f"{obj.name}: {count} faces are too small in the map for Blender's single precision")
+
+
+def _problems(obj, made):
+    """What was not done, or not as it was chosen; the parts that are not surfaces. One sentence for each reason."""
+    told = {}
+    for index, part in enumerate(made.parts, 1):
+        reasons = {"skipped": part.skipped, UNUSED: part.component.note}
+        reasons["not seamless"] = part.not_seamless
+        for what, why in reasons.items():
+            if why:
+                told.setdefault((what, why), []).append(str(index))
+    for (what, why), indices in told.items():
+        which = "" if len(made.parts) == 1 else f"{_numbered('part', indices)} of {len(made.parts)}"
+        words = (what, "on" if which else "", which) if what == UNUSED else (which, what)
+        yield f"{obj.name}: {' '.join(filter(None, words))}: {why}"
+    left = {}
+    for refused in made.solved.surface.refused:
+        left.setdefault(native.sentence(refused.reason), []).append(len(refused.faces))
+    yield from (f"{obj.name}: {_faces(sum(counts))} left out: {reason}" for reason, counts in left.items())
+
+
+def _numbered(noun, indices):
+    """A noun with its numbers: "part 3", "parts 1, 4", or "30 parts"."""
+    if len(indices) > NAMED:
+        return f"{len(indices)} {noun}s"
+    return f"{noun}{'s' * (len(indices) > 1)} {', '.join(indices)}"
+
+
+def _faces(count):
+    return "1 face" if count == 1 else f"{count:,} faces"
+
+
+def _modifier_notes(obj, solved):
+    closing = [m.name for m in obj.modifiers if m.type in CLOSING_MODIFIERS and not compatibility.is_auto_smooth(m)]
+    if closing and any(c.surface.boundary_count for c in solved.components):
+        yield f"{obj.name}: modifiers are ignored: use Map with Modifiers if {closing[0]!r} closes the surface"
+
+
+def with_coarse_places(obj, polygons, entry):
+    """The report's entry with the places that the main map leaves coarse, where it is uneven, and how many faces are
+    too small in it for the single precision of Blender's UV maps."""
+    ratios = [part["main_map"]["size_range"] for part in entry["components"] if part["done"]]
+    if all(ratio is not None and ratio <= holomorph.UNEVEN[0] for ratio in ratios):
+        return entry | {"coarse_places": [], "faces_without_area": 0}
+    distortion = holomorph.distortion
+    found = distortion.measure(polygons, uv_maps.read_corners(obj.data, polygons, entry["maps"][0]["name"]))
+    places = coarse.places(obj, polygons, found.density)
+    without_area = int(np.count_nonzero(found.angle >= distortion.COLLAPSED))
+    return entry | {"coarse_places": places, "faces_without_area": without_area}

@@ -3,7 +3,7 @@
 
 from ..materials import material
 from ..scene import gathering, uv_maps
-from . import empties, heat, report
+from . import heat, report, tags
 
 BEFORE = "holomorph_shown_before"  # custom property of a mesh: the UV maps that were active, in editors and for renders
 
@@ -61,6 +61,6 @@ def remove_maps(step, obj):
     heat.refresh(obj)
     mesh.update()
     for user in (obj, *gathering.others(obj)):
-        step.remove(empties.of(user))
+        step.remove(tags.empties_of(user))
         found |= user.pop(report.PROPERTY, None) is not None
     return found

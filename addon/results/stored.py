@@ -9,7 +9,7 @@ import json
 
 import numpy as np
 
-from ..maps.options import TileOptions
+from ..maps.mapped import TileOptions
 from ..native import holomorph
 from ..scene import mesh_io
 
@@ -46,7 +46,7 @@ def marks(stored):
 
 
 def asked(stored):
-    """The `options.TileOptions` that a tiling was made with, but for where its poles may be; None where there are
+    """The `mapped.TileOptions` that a tiling was made with, but for where its poles may be; None where there are
     none."""
     values = parsed(stored).get("asked")
     return None if values is None else TileOptions(**{name: as_tuple(value) for name, value in values.items()})

@@ -6,14 +6,13 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from .. import native
-from ..maps import forms, packing
-from ..maps.options import ISLANDS
+from ..maps import mapped, packing
 from ..materials import material
-from ..materials.own import Own
-from ..scene import faces, mesh_io, uv_maps
+from ..materials.user_texture import Own
+from ..scene import mesh_io, targets, uv_maps
 from ..writing import transaction
-from . import empties, heat, report, restore, stand_in, stored
-from .outcome import Outcome, with_coarse_places
+from . import heat, report, restore, stored, tags
+from .report import Outcome, with_coarse_places
 
 
 @dataclass(frozen=True)
@@ -28,7 +27,7 @@ class WriteOptions:
     shape: bool = False  # the conformal image in space
     empties: bool = False  # at poles and branch points
     size: float = 0.0  # width of an image of the texture on the surface; 0 for the number of squares
-    own: object | None = None  # `own.Own`: the texture is one of the user's
+    own: object | None = None  # `user_texture.Own`: the texture is one of the user's
 
 
 def options_of(dials):
@@ -77,8 +76,8 @@ def _why_not(target, result, time_has_passed):
 def _write_object(step, outcome, target, made, options):
     obj, polygons = target.find(), target.polygons
     if target.makes_object:
-        obj = stand_in.make(step, obj)
-    if made.options.main == ISLANDS:
+        obj = tags.modifier_result(step, obj)
+    if made.options.main == mapped.ISLANDS:
         made = packing.packed(step.context, made)
     restore.remember(obj.data)
     written, new_seams = _write_maps(obj.data, polygons, made, options)
@@ -94,9 +93,9 @@ def _write_object(step, outcome, target, made, options):
     entry = report.object_report(obj, made, written, new_seams, options)
     entry = with_coarse_places(obj, polygons, entry)
     report.store(obj, entry)
-    step.remove(empties.of(obj))
+    step.remove(tags.empties_of(obj))
     if options.empties:
-        empties.write(step.context, obj, *stored.marks(obj[report.PROPERTY]))
+        tags.write_empties(step.context, obj, *stored.marks(obj[report.PROPERTY]))
     outcome.add(obj, target, made, written, entry)
 
 
@@ -108,7 +107,7 @@ def _write_maps(mesh, polygons, made, options):
     uv_maps.add_own_maps(mesh, [w.name for w in written])
     uv_maps.show_map(mesh, _shown(written, options).name)
     new_seams = mesh_io.add_seams(mesh, _cuts(mesh, polygons, made)) if options.seams else 0
-    shape = forms.shape_points(made.solved) if options.shape else None
+    shape = mapped.shape_points(made.solved) if options.shape else None
     if shape is not None:
         uv_maps.write_shape(mesh, shape)
     return written, new_seams
@@ -121,7 +120,7 @@ def _shown(written, options):
 def _cuts(mesh, polygons, made):
     """(#S,2) vertices of the object: where the main map is cut, and where the mapped faces end."""
     islands = packing.cuts([part.component.surface for part in made.parts])
-    return np.concatenate([islands, faces.border(mesh, polygons), *(part.seams for part in made.done)])
+    return np.concatenate([islands, targets.border(mesh, polygons), *(part.seams for part in made.done)])
 
 
 def _look(made, options, is_tiling):
@@ -132,9 +131,8 @@ def _look(made, options, is_tiling):
         cells *= max(1, round(options.checker_scale / cells))
         return material.Look(options.texture, cells, made.unit_length, is_tiling=True, own=options.own)
     plain = made.of_forms()
-    across, arrangement = material.across(options.texture), made.options.arrangement
     cells = options.checker_scale
     if options.size and plain.unit_length:
         cells = material.cells(options.texture) * plain.unit_length / options.size
-    cells = cells or forms.squares_that_fit(plain.part_maps, arrangement, across)
+    cells = cells or plain.squares_that_fit(material.across(options.texture))
     return material.Look(options.texture, cells, plain.unit_length, own=options.own)

@@ -28,6 +28,11 @@ def candidates(context):
     return compatibility.objects_being_edited(context) if context.mode == "EDIT_MESH" else [context.object]
 
 
+def has_candidates(context):
+    """Whether there are any; a panel asks it whenever it is drawn."""
+    return any(True for _ in candidates(context))
+
+
 def selected_meshes(context):
     """Yields the selected mesh objects that are visible, in a 3D view those of its local view."""
     selected = compatibility.selected_in(context.view_layer)

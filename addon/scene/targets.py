@@ -7,9 +7,10 @@ import bpy
 import numpy as np
 
 from ..compatibility import Values
-from ..solving import choices, solve
-from ..solving.choices import Choices
-from . import faces, gathering, mesh_io
+from ..native import holomorph
+from ..solving import jobs
+from ..solving.jobs import Choices
+from . import gathering, mesh_io
 
 EVERYTHING = Choices()
 MOST_PICKED = 64  # vertices; a larger selection is not a choice of single vertices
@@ -85,10 +86,10 @@ def _masks(objects, wanted):
     """{mesh: (#F,) bool, or None for all faces}; meshes of which nothing is selected are left out where something is
     selected on others. @pre pending edits are written to the meshes. @throws ValueError as `collect`"""
     meshes = list(dict.fromkeys(obj.data for obj in objects))
-    selected = {} if wanted == choices.WHOLE else _selected_faces(meshes, wanted == choices.ASKED)
+    selected = {} if wanted == jobs.WHOLE else _selected_faces(meshes, wanted == jobs.ASKED)
     if selected:
         return {mesh: _or_all(flags) for mesh, flags in selected.items()}
-    if wanted == choices.ASKED:
+    if wanted == jobs.ASKED:
         raise ValueError("select the faces to map")
     return {mesh: _or_all(~_flags(mesh, "hide")) if mesh.is_editmode else None for mesh in meshes}
 
@@ -147,7 +148,7 @@ def _of_modifiers(target, asked, shown, seams, modifier):
         return replace(target, refused=f"its modifiers leave no faces; the first is {modifier}")
     if target.mask is not None or asked.is_explicit:
         return replace(target, refused="the selection is on the mesh itself, not on the result of its modifiers")
-    chosen = replace(asked, use=choices.NONE, seams=seams if asked.cut_at_seams else choices.NO_EDGES)
+    chosen = replace(asked, use=jobs.NONE, seams=seams if asked.cut_at_seams else jobs.NO_EDGES)
     note = f"{target.name}: the result of its modifiers is a new object; the original is hidden"
     return replace(target, polygons=shown, chosen=chosen, makes_object=True, note=note)
 
@@ -166,10 +167,10 @@ def _chosen(obj, asked):
 
 def _selected(obj, use):
     """The selected vertices. Automatic use takes single vertices in edit mode, not faces or edges that are selected."""
-    if use == choices.NONE or (use == choices.AUTOMATIC and obj.mode != "EDIT"):
+    if use == jobs.NONE or (use == jobs.AUTOMATIC and obj.mode != "EDIT"):
         return ()
     selected = mesh_io.selected_vertices(obj.data)
-    if use == choices.AUTOMATIC and (len(selected) > MOST_PICKED or mesh_io.are_neighbours(obj.data, selected)):
+    if use == jobs.AUTOMATIC and (len(selected) > MOST_PICKED or mesh_io.are_neighbours(obj.data, selected)):
         return ()
     return tuple(selected.tolist())
 
@@ -180,7 +181,7 @@ def with_positions(target, vertices):
 
 
 def tasks(targets):
-    return [solve.Task(t.polygons, t.chosen) for t in targets if not t.refused]
+    return [jobs.Task(t.polygons, t.chosen) for t in targets if not t.refused]
 
 
 def objects(targets):
@@ -197,4 +198,29 @@ def align(targets, results):
 
 def read(obj, mask=None):
     """The polygons as they are seen: with the object's scale, without modifiers; some of them for a mask."""
-    return faces.part(mesh_io.read_polygons(obj.data, gathering.linear(obj)), mask)
+    return part(mesh_io.read_polygons(obj.data, gathering.linear(obj)), mask)
+
+
+def part(polygons, mask):
+    """The `mesh_io.Polygons` of some of the faces, or of all of them for None."""
+    if mask is None:
+        return polygons
+    faces = np.flatnonzero(mask).astype(np.int32)
+    sizes = np.diff(polygons.face_offsets)
+    offsets = np.zeros(len(faces) + 1, np.int32)
+    np.cumsum(sizes[faces], out=offsets[1:])
+    corners = np.flatnonzero(polygons.has_corner_in(mask)).astype(np.int32)
+    loops = corners if polygons.loops is None else polygons.loops[corners]
+    chosen = polygons.corner_vertices[corners]
+    return replace(polygons, corner_vertices=chosen, face_offsets=offsets, loops=loops, faces=faces)
+
+
+def border(mesh, polygons):
+    """(n, 2) vertices of the edges between these polygons and the others of the mesh."""
+    if polygons.faces is None:
+        return np.empty((0, 2), np.int64)
+    whole, edges = mesh_io.read_polygons(mesh, np.eye(3)), holomorph.mesh.edges
+    is_own = whole.has_corner_in(polygons.faces)
+    sides = edges.polygon_sides(whole)
+    keys = edges.edge_keys(sides, len(whole.vertices))
+    return sides[is_own & np.isin(keys, keys[~is_own])]

@@ -5,11 +5,128 @@ A thread, for a call of the library takes seconds or minutes, while Blender's ti
 with the job.
 """
 
+import hashlib
+import itertools
 import threading
+import time
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
 
 from .. import native
-from ..native import holomorph
-from . import solve
+from ..native import holomorph, module
+
+structures = module("maps.chosen_structures")
+
+NONE, POLES, RECTANGLE = structures.NONE, structures.POLES, structures.RECTANGLE  # what the selection is
+AUTOMATIC, ISLANDS, NO_EDGES = structures.AUTOMATIC, structures.ISLANDS, structures.NO_EDGES
+# Which faces are mapped: all; in edit mode the selected ones if there are any; these, or a refusal.
+WHOLE, SELECTED, ASKED = "WHOLE", "SELECTED", "ASKED"
+DOUBLE = 8  # bytes
+DOUBLES_OF_TILER = 40  # for each edge: half-edges, weights, the multigrid hierarchy
+DOUBLES_OF_MAP = 6  # for each corner: UVs and quality
+KEPT_MAPS = 4  # maps kept for each object: the redo panel goes back and forth between a few
+# Solves, so that the dials of the redo panel cost one small matrix product and no solve: an object that was moved,
+# renamed, undone or reopened has the same, one that was edited has not.
+KEPT = holomorph.core.newest.Kept(1_200_000_000)
+
+
+@dataclass(frozen=True)
+class Choices(structures.Choices):
+    """What is asked of every object of a run, and then, with its own vertices and seams, of each."""
+
+    cut_at_seams: bool = False
+    faces: str = WHOLE  # which ones are mapped
+    modifiers: bool = False  # whether they count, in object mode
+
+
+def numbers(text):
+    """The complex numbers in a text like "1 1 -2" or "1+0.5j, -1-0.5j"; raises ValueError naming what is none."""
+    result = []
+    for word in text.replace(",", " ").split():
+        try:
+            number = complex(word)
+        except ValueError:
+            number = complex("nan")
+        if not np.isfinite(number):
+            raise ValueError(f"residues: {word!r} is not a number")
+        result.append(number)
+    return tuple(result)
+
+
+@dataclass(frozen=True)
+class Task:
+    """A mesh to solve, and what was chosen on it."""
+
+    polygons: object
+    chosen: Choices = Choices()
+
+    @property
+    def key(self):
+        """Equal for tasks with the same result: of the same geometry and topology, with the same choices."""
+        digest = hashlib.sha256()
+        for array in (self.polygons.vertices, self.polygons.corner_vertices, self.polygons.face_offsets):
+            digest.update(f"{array.shape}".encode())
+            digest.update(np.ascontiguousarray(array))
+        return digest.digest(), self.chosen.key
+
+
+@dataclass(frozen=True, eq=False)
+class SolvedObject:
+    """The parts of one object in the library's order, the mesh as given, and the surface in it."""
+
+    surface: object
+    polygons: object
+    components: list  # `PartStructure`s of the package
+    seconds: float
+    # What `mapped` made of it by what was asked, newest last: the `mapped.MappedPart`s, and a size for them.
+    maps: dict = field(default_factory=dict)
+    number: int = field(default_factory=itertools.count().__next__)  # no other one has it
+
+    @cached_property
+    def done(self):
+        """The components that have maps."""
+        return [c for c in self.components if c.structure is not None]
+
+    @cached_property
+    def form_count(self):
+        """The largest number of forms among the components."""
+        return max((c.form_count for c in self.done), default=0)
+
+    def keep_maps(self, asked, made):
+        """Adds those of the `done` components, and drops the oldest beyond `KEPT_MAPS`."""
+        self.maps[asked] = made
+        while len(self.maps) > KEPT_MAPS:
+            del self.maps[next(iter(self.maps))]
+
+    @property
+    def nbytes(self):
+        """About how many bytes are held: harmonic forms and potentials; of tilers also solvers; and maps."""
+        has_tilings = any(part.tiling for parts, _ in self.maps.values() for part in parts)
+        per_form, per_edge = (6, 4 + DOUBLES_OF_TILER) if has_tilings else (4, 4)
+        of_edges = sum((per_form * c.form_count + per_edge) * len(c.structure.edges) for c in self.done)
+        corners = sum(len(c.surface.corner_vertices) for c in self.done)
+        return DOUBLE * (of_edges + len(self.maps) * DOUBLES_OF_MAP * corners)
+
+
+def solve(task, progress=None):
+    """The `SolvedObject`, kept or new; a new one is kept.
+
+    progress(fraction, stage) returning False cancels. Raises `holomorph.Error` for a mesh that cannot be treated as a
+    whole, and where an explicit choice of vertices does not fit the part they lie on.
+    """
+    key = task.key
+    return KEPT.get(key) or KEPT.keep(key, solved_anew(task, progress))
+
+
+def solved_anew(task, progress=None):
+    """The `SolvedObject`, which is not kept."""
+    start, polygons = time.perf_counter(), task.polygons
+    arrays = polygons.vertices, polygons.corner_vertices, polygons.face_offsets
+    surface, parts = structures.chosen_structures(*arrays, task.chosen, progress)
+    polygons.share(surface)
+    return SolvedObject(surface, polygons, parts, time.perf_counter() - start)
 
 
 class Work:
@@ -57,7 +174,7 @@ class Work:
 
 
 class Job(Work):
-    """Solves a list of `solve.Task` one after the other, and then goes on with all solves as the function `then` does,
+    """Solves a list of `Task` one after the other, and then goes on with all solves as the function `then` does,
     if there is one: from {i: SolvedObject} of `tasks[i]`, and a progress function, it makes {i: result}.
 
     `results[i]` is that, or the `SolvedObject`; or the error that refused the mesh, one of `native.refusals`.
@@ -84,7 +201,7 @@ class Job(Work):
         except native.refusals() as error:
             return dict.fromkeys(solved, error)
         finally:
-            solve.KEPT.trim()  # tilers and maps are part of the solves
+            KEPT.trim()  # tilers and maps are part of the solves
 
     def _solved(self, share):
         """{i: SolvedObject}, until the job is cancelled; refusals become results."""
@@ -93,7 +210,7 @@ class Job(Work):
             if self.watch.is_cancelled:
                 break
             try:
-                made[index] = solve.solve(task, self.watch.part(share * index / count, share * (index + 1) / count))
+                made[index] = solve(task, self.watch.part(share * index / count, share * (index + 1) / count))
             except refusals as error:
                 self.results[index] = error
         return made

@@ -13,7 +13,7 @@ from .. import compatibility
 from ..compatibility import Values
 from ..results import report, stored, tags
 from ..scene import attributes, gathering, mesh_io, uv_maps
-from . import following, pieces, placing, wires
+from . import pieces, placing, tree, wires
 
 PIECES_OF, WIRES_OF, CELLS_OF, RELIEF_OF = (  # custom properties
     f"holomorph_{kind}_of" for kind in ("geometry", "lines", "cells", "relief")
@@ -146,10 +146,10 @@ def _in_world(obj, positions):
 
 
 def _points_mesh(obj, values, edges=()):
-    positions, none = values[following.POSITION], np.empty(0, np.int32)
+    positions, none = values[tree.POSITION], np.empty(0, np.int32)
     mesh = mesh_io.new_mesh(f"{obj.name} Points", _in_world(obj, positions), none, np.zeros(1, np.int32), edges)
     for name, array in values.items():
-        if name != following.POSITION:
+        if name != tree.POSITION:
             _write_attribute(mesh, name, array, "POINT")
     return mesh
 

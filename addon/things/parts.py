@@ -8,7 +8,7 @@ import numpy as np
 from .. import native
 from ..native import holomorph
 from ..solving import jobs
-from . import following
+from . import tree
 
 FOUND = 0.7  # part of the work until something is found on all parts
 NO_TILING = "its UV map is not a seamless tiling: press Seamless Tiling first"
@@ -58,16 +58,16 @@ class PartsWork(jobs.Work):
 
 def surface_values(points):
     """Where `holomorph.SurfacePoints` lie, as attributes by name: their positions in the frame of the polygons, and
-    what `following.Followed` needs to find them again."""
+    what `tree.Followed` needs to find them again."""
     surface = points.tiled.surface
     vertices = surface.vertex_index[surface.triangles[points.triangles]]
     corners = surface.triangle_corners[points.triangles]
     corners = corners if surface.is_whole else surface.corner_index[corners]
     return {
-        following.POSITION: points.positions,
-        **{name: vertices[:, k] for k, name in enumerate(following.VERTICES)},
-        **{name: corners[:, k] for k, name in enumerate(following.CORNERS)},
-        following.BARYCENTRIC: points.barycentric,
+        tree.POSITION: points.positions,
+        **{name: vertices[:, k] for k, name in enumerate(tree.VERTICES)},
+        **{name: corners[:, k] for k, name in enumerate(tree.CORNERS)},
+        tree.BARYCENTRIC: points.barycentric,
     }
 
 

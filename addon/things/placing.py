@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Geometry Nodes that put a piece on every point, where the surface is now."""
 
-from .following import Followed
-from .tree import Dial, angle, made_once, number
+from .tree import Dial, Followed, angle, made_once, number
 
 NAME = "Holomorphic Geometry on Tiling"
 VERSION = 2  # of what follows

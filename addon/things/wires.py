@@ -4,8 +4,7 @@
 import numpy as np
 
 from . import parts
-from .following import POSITION, Followed
-from .tree import Dial, made_once, number
+from .tree import POSITION, Dial, Followed, made_once, number
 
 NAME = "Holomorphic Lines on Tiling"
 VERSION = 2  # of the nodes

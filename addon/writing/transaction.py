@@ -6,7 +6,7 @@ from contextlib import ExitStack, contextmanager
 import bpy
 
 from .. import compatibility
-from . import mesh_state, modes, states
+from . import states
 
 MADE = (
     "objects",
@@ -102,7 +102,7 @@ class _Before:
         self._context = context
         self._active, self._selected = layer.objects.active, set(compatibility.selected_in(layer))
         self._hidden = {obj for obj in compatibility.objects_in(layer) if obj.hide_get()}
-        self.modes = modes.Modes(context)
+        self.modes = Modes(context)
         self._blocks = {block.as_pointer() for block in _blocks()}
         self._kept = [states.Attributes(context.scene.tool_settings, "mesh_select_mode", "use_uv_select_sync")]
 
@@ -112,7 +112,7 @@ class _Before:
         users = [obj for obj in bpy.data.objects if obj.data in meshes and obj.library is None]
         self._kept += [*states.texts(), *states.materials(), *states.views(self._context.window)]
         of_objects = [states.ObjectState(obj) for obj in users]
-        of_meshes = [mesh_state.MeshState(mesh) for mesh in meshes]
+        of_meshes = [states.MeshState(mesh) for mesh in meshes]
         step.keep([state.copy for state in of_meshes])
         self._kept += of_objects + of_meshes
         for state in of_objects:
@@ -150,3 +150,54 @@ def remove(blocks):
 
 def _blocks():
     return [block for kind in MADE for block in getattr(bpy.data, kind)]
+
+
+class Modes:
+    """The modes of the mesh objects of a view layer, whichever of them is the active one."""
+
+    def __init__(self, context):
+        layer = context.view_layer
+        self._layer, self._selected = layer, set(compatibility.selected_in(layer))
+        self._before = {}  # mode: its objects
+        for obj in _elsewhere(layer):
+            self._before.setdefault(obj.mode, []).append(obj)
+
+    def push_undo(self):
+        """Pushes an undo step where something is sculpted or painted: else Blender would undo what follows together
+        with the last stroke.
+        """
+        if self._before.keys() - {"EDIT"}:
+            bpy.ops.ed.undo_push(message="Before Holomorph")
+
+    def leave(self):
+        """Puts all objects in object mode, also those that have entered another mode since."""
+        for obj in _elsewhere(self._layer):
+            if obj.mode != "OBJECT":  # edit mode is left by all objects at once
+                self._set(obj, "OBJECT")
+
+    def enter(self):
+        """Puts the objects that are in object mode now back in their earlier modes."""
+        for mode, objects in self._before.items():
+            objects = [obj for obj in objects if obj.mode == "OBJECT"]
+            if mode == "EDIT" and objects:  # all objects at once, which have to be selected for it
+                self._select(objects)
+                active = self._layer.objects.active
+                self._set(active if active in objects else objects[0], mode)
+                self._select(self._selected)
+            for obj in objects:
+                if obj.mode != mode:
+                    self._set(obj, mode)
+
+    def _set(self, obj, mode):
+        active, self._layer.objects.active = self._layer.objects.active, obj
+        bpy.ops.object.mode_set(mode=mode)
+        self._layer.objects.active = active
+
+    def _select(self, objects):
+        for obj in {*self._selected, *self._before["EDIT"]}:
+            obj.select_set(obj in objects)
+
+
+def _elsewhere(layer):
+    """The mesh objects that are not in object mode."""
+    return [obj for obj in compatibility.objects_in(layer) if obj.type == "MESH" and obj.mode != "OBJECT"]

@@ -29,7 +29,7 @@ def reports(tmp_path_factory):
 @pytest.fixture(autouse=True)
 def empty_scene(addon):
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    module("solving.solve").KEPT.clear()
+    module("solving.jobs").KEPT.clear()
 
 
 @pytest.fixture

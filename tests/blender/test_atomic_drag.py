@@ -18,7 +18,7 @@ HERE, ELSEWHERE = (10.0, 10.0), (1000.0, 1000.0)  # on the screen
 # The operator's methods: Blender alone makes instances of it.
 Hand = type(
     "Hand",
-    (module("operators.availability").Explained,),
+    (module("operators.mixins").Explained,),
     {name: method for name, method in vars(drag.HOLOMORPH_OT_drag_poles).items() if isinstance(method, FunctionType)},
 )
 told = []  # errors, which Blender raises when the operator has ended

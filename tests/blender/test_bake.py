@@ -366,14 +366,14 @@ def test_refusals_leave_everything_as_it_is(make, options, sentence):
 
 def test_a_bake_that_fails_leaves_everything_as_it_is(monkeypatch):
     scene()
-    before, baked = left(), module("baking.room").Room.bake
+    before, baked = left(), module("baking.bake_scene").BakeScene.bake
 
     def fails(room, copy, map_name, channel, *arguments):
         if channel == "ROUGHNESS":
             raise RuntimeError("Error: out of memory")
         baked(room, copy, map_name, channel, *arguments)
 
-    monkeypatch.setattr(module("baking.room").Room, "bake", fails)
+    monkeypatch.setattr(module("baking.bake_scene").BakeScene, "bake", fails)
     with pytest.raises(RuntimeError, match="out of memory"):
         run(channels={"COLOUR", "ROUGHNESS"})
     assert not differences(before, left())

@@ -5,49 +5,49 @@ import pytest
 from loaded_addon import module
 from scenes import mesh_io, mesh_object, pick, sphere_arrays, torus, torus_arrays
 
-choices, native, targets = module("solving.choices"), module("native"), module("scene.targets")
+solve, native, targets = module("solving.jobs"), module("native"), module("scene.targets")
 
 
 def test_numbers():
-    assert choices.numbers("") == ()
-    assert choices.numbers("1, 1 -2") == (1, 1, -2)
-    assert choices.numbers("1+0.5j,-1-0.5j") == (1 + 0.5j, -1 - 0.5j)
+    assert solve.numbers("") == ()
+    assert solve.numbers("1, 1 -2") == (1, 1, -2)
+    assert solve.numbers("1+0.5j,-1-0.5j") == (1 + 0.5j, -1 - 0.5j)
     for wrong in ("one", "1 nan", "inf"):
         with pytest.raises(ValueError, match="is not a number"):
-            choices.numbers(wrong)
+            solve.numbers(wrong)
 
 
 def collected(obj, use):
-    (target,) = targets.collect([obj], choices.Choices(use=use))
+    (target,) = targets.collect([obj], solve.Choices(use=use))
     return target.chosen.vertices
 
 
 def test_the_selection_is_read_in_its_order():
     obj = torus()
     pick(obj, [50, 7, 120])
-    assert collected(obj, choices.AUTOMATIC) == (50, 7, 120)
-    assert collected(obj, choices.POLES) == (50, 7, 120)
-    assert collected(obj, choices.NONE) == ()
+    assert collected(obj, solve.AUTOMATIC) == (50, 7, 120)
+    assert collected(obj, solve.POLES) == (50, 7, 120)
+    assert collected(obj, solve.NONE) == ()
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert collected(obj, choices.AUTOMATIC) == ()
-    assert collected(obj, choices.POLES) == (7, 50, 120)
+    assert collected(obj, solve.AUTOMATIC) == ()
+    assert collected(obj, solve.POLES) == (7, 50, 120)
 
 
 def test_selected_edges_and_everything_selected_are_no_choice():
     obj = torus()
     pick(obj, [0, 1, 50])
-    assert collected(obj, choices.AUTOMATIC) == ()
+    assert collected(obj, solve.AUTOMATIC) == ()
     bpy.ops.mesh.select_all(action="SELECT")
-    assert collected(obj, choices.AUTOMATIC) == ()
-    assert len(collected(obj, choices.POLES)) == len(torus_arrays()[0])
+    assert collected(obj, solve.AUTOMATIC) == ()
+    assert len(collected(obj, solve.POLES)) == len(torus_arrays()[0])
 
 
 def test_a_loose_vertex_cannot_be_chosen():
     vertices, faces = sphere_arrays()
     obj = mesh_object("Sphere", [*vertices, (3, 3, 3)], faces)
-    (task,) = targets.tasks(targets.collect([obj], choices.Choices(choices.POLES, (0, 162))))
+    (task,) = targets.tasks(targets.collect([obj], solve.Choices(solve.POLES, (0, 162))))
     with pytest.raises(native.load().InvalidMesh, match="vertex 162 belongs to no face"):
-        module("solving.solve").solve(task)
+        solve.solve(task)
 
 
 def test_seams_are_read_as_vertices():

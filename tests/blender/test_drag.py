@@ -86,7 +86,7 @@ def test_other_tiles_rotations_and_lattices_place_no_poles_again(stages):
 
 
 def test_tilers_count_in_the_size_of_what_is_kept(monkeypatch):
-    kept = module("solving.solve").KEPT
+    kept = module("solving.jobs").KEPT
     first, second = torus("First"), torus("Second", thickness=0.5)
     for obj in (first, second):
         select(obj)
@@ -138,7 +138,7 @@ def test_the_same_after_everything_was_forgotten():
     move(f"0:{neighbour(obj, poles(obj)[0])}")
     before = uv(obj)
     place = poles(obj)[0]
-    module("solving.solve").KEPT.clear()
+    module("solving.jobs").KEPT.clear()
     move(f"0:{place}")
     assert np.array_equal(uv(obj), before)
 

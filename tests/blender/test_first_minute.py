@@ -10,7 +10,7 @@ from drawn_panel import Drawn, drawn
 from loaded_addon import module
 from scenes import mesh_io, mesh_object, run, select, shown_scale, sphere_arrays, stored_report, torus, uv
 
-coarse, lines, viewport = map(module, ("maps.coarse", "interface.lines", "materials.viewport"))
+coarse, lines, viewport = map(module, ("maps.coarse", "interface.lines", "materials.material"))
 
 
 def spikes(subdivisions=4):
@@ -35,7 +35,7 @@ def views():
         shading.type = "SOLID"
         shading.color_type = colour
         shading.type = kind
-    window.screen.pop(viewport.BEFORE, None)
+    window.screen.pop(viewport.SHADING_BEFORE, None)
 
 
 @pytest.mark.parametrize("kind", ["SOLID", "WIREFRAME"])
@@ -44,30 +44,30 @@ def test_a_view_without_textures_shows_them_and_goes_back(views, kind, colour):
     window, (shading, *_) = views
     shading.type, shading.color_type = "SOLID", colour
     shading.type = kind
-    viewport.show(window)
-    viewport.show(window)
+    viewport.show_in_views(window)
+    viewport.show_in_views(window)
     assert (shading.type, shading.color_type) == ("SOLID", "TEXTURE")
-    viewport.restore(window)
+    viewport.restore_views(window)
     kept, shading.type = shading.type, "SOLID"
     assert (kept, shading.color_type) == (kind, colour)
-    assert viewport.BEFORE not in window.screen
+    assert viewport.SHADING_BEFORE not in window.screen
 
 
 @pytest.mark.parametrize(("kind", "colour"), [("MATERIAL", "MATERIAL"), ("SOLID", "TEXTURE")])
 def test_a_view_that_shows_textures_stays(views, kind, colour):
     window, (shading, *_) = views
     shading.type, shading.color_type = kind, colour
-    viewport.show(window)
-    assert shading.type == kind and viewport.BEFORE not in window.screen
+    viewport.show_in_views(window)
+    assert shading.type == kind and viewport.SHADING_BEFORE not in window.screen
 
 
 def test_shading_that_was_chosen_since_is_kept(views):
     window, (shading, *_) = views
     shading.type, shading.color_type = "SOLID", "MATERIAL"
-    viewport.show(window)
+    viewport.show_in_views(window)
     shading.type = "MATERIAL"
-    viewport.restore(window)
-    assert shading.type == "MATERIAL" and viewport.BEFORE not in window.screen
+    viewport.restore_views(window)
+    assert shading.type == "MATERIAL" and viewport.SHADING_BEFORE not in window.screen
 
 
 @pytest.mark.parametrize("back", [bpy.ops.uv.holomorphic_restore_materials, bpy.ops.uv.holomorphic_remove_maps])
@@ -94,7 +94,7 @@ def test_the_preference_decides(views, is_on):
     package = module("preferences").__package__
     stored = {package: SimpleNamespace(preferences=SimpleNamespace(show_in_viewport=is_on))}
     context = SimpleNamespace(window=window, preferences=SimpleNamespace(addons=stored))
-    module("operators.modal").WorkOperator().show(context, SimpleNamespace(done=["Ring"]), True)
+    module("operators.mixins").WorkOperator().show(context, SimpleNamespace(done=["Ring"]), True)
     assert shading.color_type == ("TEXTURE" if is_on else "MATERIAL")
 
 
@@ -180,7 +180,7 @@ def test_warnings_of_one_kind_are_one_line():
     parts = [SimpleNamespace(skipped="no room", component=SimpleNamespace(note=""), not_seamless="")] * 239
     surface = SimpleNamespace(refused=[SimpleNamespace(faces=[1], reason="without area")] * 7)
     made = SimpleNamespace(parts=parts, solved=SimpleNamespace(surface=surface))
-    told = list(module("results.outcome")._problems(SimpleNamespace(name="Kit"), made))
+    told = list(module("results.report")._problems(SimpleNamespace(name="Kit"), made))
     assert told == ["Kit: 239 parts of 239 skipped: no room", "Kit: 7 faces left out: without area"]
 
 
@@ -199,7 +199,7 @@ def test_lines_are_broken_where_they_do_not_fit():
 
 @pytest.mark.parametrize(("level", "told"), [("fair", ([], ["Ring: Even"])), ("poor", (["Ring: Even"], []))])
 def test_a_poor_map_is_a_warning(level, told):
-    outcome = module("results.outcome").Outcome()
+    outcome = module("results.report").Outcome()
     entry = {"verdict": {"level": level, "sentence": "Even", "advice": ""}, "components": [], "faces_without_area": 0}
     entry["whole"] = {"text": ""}
     outcome.judge(SimpleNamespace(name="Ring"), entry)

@@ -8,8 +8,8 @@ import pytest
 from loaded_addon import module
 from scenes import grid_arrays, mesh_io, mesh_object, select, sphere_arrays, tiled, torus, torus_arrays, tube_arrays
 
-names = ("cut", "following", "geometry", "pieces", "placing", "tree")
-cut, following, geometry, pieces, placing, tree = (module(f"things.{name}") for name in names)
+names = ("cut", "geometry", "pieces", "placing", "tree")
+cut, geometry, pieces, placing, tree = (module(f"things.{name}") for name in names)
 compatibility, image_io = module("compatibility"), module("scene.image_io")
 
 SINGLE = 1e-5  # what the single precision of Blender's positions leaves
@@ -75,7 +75,7 @@ def test_pieces_stand_along_rows_and_upright():
     made = put(tiled(torus()), columns=3)
     frames = instances(made)[:, :3, :3]
     frames /= np.linalg.norm(frames, axis=1, keepdims=True)
-    corners = np.stack([attribute(made, name) for name in following.VERTICES], axis=1)
+    corners = np.stack([attribute(made, name) for name in tree.VERTICES], axis=1)
     positions = mesh_io.world_points(bpy.data.objects["Torus"])[corners]
     edges = positions[:, 1:] - positions[:, :1]
     flat = np.cross(edges[:, 0], edges[:, 1])
@@ -93,8 +93,8 @@ def deformed(obj):
 
 def on_deformed(made, obj):
     """(n, 3) where the places are now."""
-    corners = np.stack([attribute(made, name) for name in following.VERTICES], axis=1)
-    shown = np.einsum("ni,nix->nx", attribute(made, following.BARYCENTRIC), deformed(obj)[corners])
+    corners = np.stack([attribute(made, name) for name in tree.VERTICES], axis=1)
+    shown = np.einsum("ni,nix->nx", attribute(made, tree.BARYCENTRIC), deformed(obj)[corners])
     return shown + np.array(obj.matrix_world)[:3, 3]
 
 
@@ -270,8 +270,8 @@ def picture(values):
 def shares(made):
     """(n, 2) of a UV unit: where the places lie in it."""
     polygons, uv, _ = geometry.source(bpy.data.objects["Torus"])
-    corners = np.stack([attribute(made, name) for name in following.CORNERS], axis=1)
-    return np.einsum("ni,nix->nx", attribute(made, following.BARYCENTRIC), uv[corners]) % 1
+    corners = np.stack([attribute(made, name) for name in tree.CORNERS], axis=1)
+    return np.einsum("ni,nix->nx", attribute(made, tree.BARYCENTRIC), uv[corners]) % 1
 
 
 def nearest(points, found):

@@ -104,7 +104,7 @@ def test_a_text_is_to_be_converted_and_then_flattened():
     bpy.ops.object.text_add()
     obj = bpy.context.object
     obj.data.extrude = 0.1
-    operators, availability = module("operators.mapping"), module("operators.availability")
+    operators, availability = module("operators.mapping"), module("operators.mixins")
     assert operators.HOLOMORPH_OT_maps.why_not(bpy.context) == availability.CONVERT
     bpy.ops.object.convert(target="MESH")
     assert operators.HOLOMORPH_OT_maps.why_not(bpy.context) == ""

@@ -6,7 +6,7 @@ import pytest
 from loaded_addon import module
 from scenes import frame, mesh_io, mesh_object, native, run, select, torus, uv
 
-heat, scales = module("results.heat"), module("overlays.scales")
+heat, scales = module("results.heat"), module("overlays.heat_view")
 
 
 def heat_maps():

@@ -13,7 +13,7 @@ native = module("native")
 
 
 def task_of(obj):
-    return module("solving.solve").Task(mesh_io.read_polygons(obj.data, np.eye(3)))
+    return module("solving.jobs").Task(mesh_io.read_polygons(obj.data, np.eye(3)))
 
 
 def test_a_worker_gives_what_the_main_thread_gives():
@@ -28,7 +28,7 @@ def test_a_worker_gives_what_the_main_thread_gives():
 def test_one_copy_of_the_arrays_is_left():
     task = task_of(torus())
     given = [a.copy() for a in (task.polygons.vertices, task.polygons.corner_vertices, task.polygons.face_offsets)]
-    surface = module("solving.solve").solve(task).surface
+    surface = module("solving.jobs").solve(task).surface
     left = (task.polygons.vertices, task.polygons.corner_vertices, task.polygons.face_offsets)
     for array, own, before in zip(left, (surface.vertices, surface.corner_vertices, surface.face_offsets), given):
         assert np.shares_memory(array, own) and array.dtype == before.dtype and (array == before).all()
@@ -47,7 +47,7 @@ def test_a_refused_mesh_is_a_result_and_the_next_is_solved():
 def test_too_little_memory_is_a_sentence_and_the_next_is_solved(monkeypatch):
     sentence = "there is not enough memory for a mesh of this size"
     large, other = torus("Large", around=100), torus("Other")
-    solve = module("solving.solve")
+    solve = module("solving.jobs")
     solve_any = solve.solve
 
     def solve_small(task, *rest):
@@ -79,7 +79,7 @@ def test_cancel_leaves_the_rest_undone():
     job.start()
     job.wait()
     assert isinstance(job.results[0], native.load().Cancelled) and job.results[1] is None
-    assert module("solving.solve").KEPT.get(task.key) is None
+    assert module("solving.jobs").KEPT.get(task.key) is None
 
 
 def test_progress_grows_from_0_to_1():
@@ -96,7 +96,7 @@ def test_our_own_mistakes_come_out_of_the_thread(monkeypatch):
     def broken(*_):
         raise ZeroDivisionError("our own mistake")
 
-    monkeypatch.setattr(module("solving.solve"), "solve", broken)
+    monkeypatch.setattr(module("solving.jobs"), "solve", broken)
     job = module("solving.jobs").Job([task_of(torus())])
     job.start()
     with pytest.raises(ZeroDivisionError):
@@ -110,7 +110,7 @@ def test_no_thread_is_left():
 
 
 def test_the_oldest_solves_go_when_memory_is_full(monkeypatch):
-    kept = module("solving.solve").KEPT
+    kept = module("solving.jobs").KEPT
     objects = [torus(str(size), around=size) for size in (20, 24, 28)]
     for obj in objects:
         module("solving.jobs").Job([task_of(obj)]).run()
@@ -129,7 +129,7 @@ def test_any_difference_makes_another_task():
     moved, turned = polygons.vertices.copy(), polygons.corner_vertices.copy()
     moved[-1, 2] = np.nextafter(moved[-1, 2], 1)
     turned[:4] = np.roll(turned[:4], 1)
-    solve = module("solving.solve")
+    solve = module("solving.jobs")
     changes = (
         {"vertices": moved},
         {"vertices": polygons.vertices[:-1]},
@@ -138,7 +138,7 @@ def test_any_difference_makes_another_task():
     )
     for change in changes:
         assert task.key != solve.Task(replace(polygons, **change)).key
-    other = module("solving.choices").Choices(seams=np.array([[0, 1]]))
+    other = module("solving.jobs").Choices(seams=np.array([[0, 1]]))
     assert task.key != replace(task, chosen=other).key
     assert task.key == solve.Task(replace(polygons, loops=np.arange(len(turned)))).key
 
@@ -148,9 +148,9 @@ def test_opening_a_file_forgets_the_solves():
     run()
     targets = module("scene.targets")
     (task,) = targets.tasks(targets.collect([obj]))
-    assert module("solving.solve").KEPT.get(task.key)
+    assert module("solving.jobs").KEPT.get(task.key)
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    assert module("solving.solve").KEPT.get(task.key) is None
+    assert module("solving.jobs").KEPT.get(task.key) is None
 
 
 @pytest.mark.skipif(bpy.app.version >= (4, 0, 0), reason="since 4.0 corners are always in the polygons' order")

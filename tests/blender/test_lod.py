@@ -297,7 +297,7 @@ def test_what_is_refused_is_left_as_it_is():
 
 
 def test_without_any_map_nothing_is_made(monkeypatch):
-    structures = module("solving.choices").structures
+    structures = module("solving.jobs").structures
 
     def skipped(part, *_):
         return structures.PartStructure(part, None, "the surface is strange")
@@ -315,7 +315,7 @@ def test_too_little_memory_is_a_sentence(monkeypatch):
         raise MemoryError("there is not enough memory for a mesh of this size")
 
     torus(**FINE)
-    monkeypatch.setattr(module("solving.solve"), "solve", too_large)
+    monkeypatch.setattr(module("solving.jobs"), "solve", too_large)
     refused("Torus: there is not enough memory for a mesh of this size")
 
 
@@ -342,7 +342,7 @@ def test_only_in_object_mode_with_an_active_mesh():
 
 def test_cancelling_ends_the_work_with_nothing_made():
     obj = torus(**FINE)
-    source = module("levels.source").Source(obj)
+    source = module("levels.level_objects").Source(obj)
     work = source.work(module("levels.levels").LevelOptions(), lambda _fraction: work.cancel())
     work.start()
     work.wait()

@@ -6,13 +6,13 @@ import pytest
 from loaded_addon import module
 from scenes import torus, uv
 
-studio = module("command_line.studio")
+preview_scene = module("command_line.preview_scene")
 SIZE = 160
 STEP = 1 / 255  # part of a channel
 
 
 def picture(obj, path):
-    studio.render([obj], str(path), SIZE, 4)
+    preview_scene.render([obj], str(path), SIZE, 4)
     image = bpy.data.images.load(str(path))
     values = np.empty(4 * SIZE * SIZE, np.float32)
     image.pixels.foreach_get(values)

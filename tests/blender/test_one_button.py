@@ -227,7 +227,7 @@ def test_the_redo_panel_makes_nothing_again(monkeypatch):
         raise AssertionError("made again")
 
     monkeypatch.setattr(module("native").load().maps.map_objects, "map_objects", forbidden)
-    monkeypatch.setattr(module("solving.solve"), "solved_anew", forbidden)
+    monkeypatch.setattr(module("solving.jobs"), "solved_anew", forbidden)
     assert press(seams=True, texture="SCALES") == {"FINISHED"}
 
 
@@ -239,7 +239,7 @@ def test_cancelling_in_a_tiling_leaves_no_result():
     job.start()
     job.wait()
     assert all(isinstance(found, module("native").load().Cancelled) for found in job.results)
-    assert not module("solving.solve").KEPT.get(tasks[0].key).maps
+    assert not module("solving.jobs").KEPT.get(tasks[0].key).maps
 
 
 def test_progress_grows_over_solve_and_tiling():
@@ -254,7 +254,7 @@ def test_the_same_bits_twice():
     obj = two_parts("Both", limb_arrays(), torus_arrays(thickness=0.1, bulge=0))
     press()
     before = uv(obj)
-    module("solving.solve").KEPT.clear()
+    module("solving.jobs").KEPT.clear()
     press()
     assert np.array_equal(uv(obj), before)
 
@@ -296,7 +296,7 @@ def test_the_balanced_map_is_evened_and_those_of_the_forms_are_not():
 
 def test_large_maps_of_mixed_forms_are_not_evened(monkeypatch):
     obj = limb()
-    monkeypatch.setattr(module("maps.mapped"), "MIXED_EVENED", 10)
+    monkeypatch.setattr(module("native").load().maps.request, "MIXED_EVENED", 10)
     amounts = (0.5,) + (1,) * 7
     for dials, evenness in (({"amounts": amounts}, 0), ({"turns": (0.1,) + (0,) * 7}, 0), ({"rotation": 0.5}, 0.5)):
         press(main="BALANCED", **dials)

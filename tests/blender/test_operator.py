@@ -390,7 +390,7 @@ def test_undo_takes_everything_back_in_one_step_and_redo_brings_it_again():
 def test_a_second_run_solves_nothing(monkeypatch):
     torus()
     run()
-    solve = module("solving.solve")
+    solve = module("solving.jobs")
 
     def forbidden(*_):
         raise AssertionError("solved again")

@@ -8,7 +8,7 @@ import pytest
 from loaded_addon import module
 from scenes import edge_jumps, everything, face_densities, run, select, stored_poles, stored_report, torus
 
-own, image_io, material = module("materials.own"), module("scene.image_io"), module("materials.material")
+own, image_io, material = module("materials.user_texture"), module("scene.image_io"), module("materials.material")
 WITHOUT_POLES = {"poles": "COUNT", "pole_count": 0}
 FOUND = "Tiles; bricks, rows shifted by half, 16 cells in the image"
 

@@ -7,7 +7,7 @@ import pytest
 from loaded_addon import module
 from scenes import duplicate, everything, linked, mesh_object, select, sphere_arrays, stored_report, torus
 
-results = {name: module(name).OF for name in ("results.stand_in", "results.empties", "levels.level_objects")}
+TAGS = (module("results.tags").RESULT_OF, module("results.tags").EMPTY_OF, module("levels.level_objects").OF)
 
 
 def mapped(obj):
@@ -31,7 +31,7 @@ def poles(obj):
 
 def made_for(obj):
     """Their names."""
-    return sorted(o.name for key in results.values() for o in bpy.data.objects if o.get(key) == obj.name)
+    return sorted(o.name for key in TAGS for o in bpy.data.objects if o.get(key) == obj.name)
 
 
 @pytest.mark.parametrize("make", [mapped, levels, poles])

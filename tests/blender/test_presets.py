@@ -7,7 +7,7 @@ import pytest
 from loaded_addon import module
 from scenes import torus
 
-presets = module("interface.presets")
+presets = module("interface.menus")
 FILES = {name: sorted((presets.FOLDER / name).glob("*.py")) for name in presets.NAMES}
 EACH = [pytest.param(name, path, id=path.stem) for name, paths in FILES.items() for path in paths]
 

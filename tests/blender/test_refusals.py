@@ -212,7 +212,7 @@ def test_only_the_librarys_errors_are_caught(monkeypatch):
     def broken(*_):
         raise ZeroDivisionError("our own mistake")
 
-    monkeypatch.setattr(module("solving.solve"), "solve", broken)
+    monkeypatch.setattr(module("solving.jobs"), "solve", broken)
     with pytest.raises(RuntimeError, match="ZeroDivisionError"):
         run()
     assert everything(obj) == before

@@ -34,14 +34,12 @@ def test_the_solvers_are_those_of_the_library():
         bpy.ops.uv.holomorphic_maps(solver="guess")
 
 
-@pytest.mark.parametrize("name", module("maps.options").DIALS)
-def test_a_dial_is_a_property_of_both_operators_and_an_option_of_the_command(name):
-    default = getattr(module("maps.options").TileOptions(), name)
+def test_evenness_is_a_property_of_both_operators_and_an_option_of_the_command():
+    default = module("maps.mapped").TileOptions.evenness
     for operator in (bpy.ops.uv.holomorphic_maps, bpy.ops.uv.holomorphic_tile):
-        found = operator.get_rna_type().properties[name]
+        found = operator.get_rna_type().properties["evenness"]
         assert found.default == pytest.approx(default) and found.description  # single precision
-    options = module("command_line.options").parse([])
-    assert getattr(options.choices().options(options, None).tiling, name) == default
+    assert module("command_line.options").parse([]).evenness == default
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ import bpy
 from loaded_addon import module
 from scenes import torus
 
-shortcuts = module("interface.shortcuts")
+shortcuts = module("interface.menus")
 
 
 class Pie:

@@ -123,7 +123,7 @@ def test_a_component_is_reported_as_by_the_package():
 
 
 def test_a_skipped_component_has_its_reason(monkeypatch):
-    structures = module("solving.choices").structures
+    structures = module("solving.jobs").structures
     structure_of_part = structures._structure_of_part
 
     def without_spheres(part, *rest):

@@ -12,7 +12,7 @@ from scenes import (
     uv_maps,
 )
 
-own, patterns, textures = (module(f"materials.{name}") for name in ("own", "patterns", "textures"))
+own, patterns, textures = (module(f"materials.{name}") for name in ("user_texture", "patterns", "textures"))
 SIZE = 512  # pixels of a drawing here
 LINES = {  # columns and rows of cells, whose borders are alike
     "NUMBERED": (8, 8),

@@ -178,7 +178,7 @@ def test_a_direction_without_length_is_refused():
 
 def test_opposite_edges_have_one_direction():
     along = np.array([[1, 2, 0], [-1, -2, 0.1], [2, 4, -0.1]])
-    found = module("operators.tile_choices").mean_direction(along)
+    found = module("operators.request").mean_direction(along)
     assert np.allclose(found, np.array([1, 2, 0]) / 5**0.5, atol=0.05)
 
 
@@ -260,7 +260,7 @@ def test_only_what_changed_is_done_again(calls, monkeypatch):
     def forbidden(*_):
         raise AssertionError("solved again")
 
-    monkeypatch.setattr(module("solving.solve"), "solved_anew", forbidden)
+    monkeypatch.setattr(module("solving.jobs"), "solved_anew", forbidden)
     for options, count in (({}, 1), ({"texture": "SCALES"}, 1), ({"tiles": 400}, 2), ({"quarters": 1}, 2), ({}, 2)):
         assert tile(**options) == {"FINISHED"}
         assert len(calls) == count
@@ -407,7 +407,7 @@ def test_the_same_bits_twice():
     obj = torus()
     tile()
     before = uv(obj)
-    module("solving.solve").KEPT.clear()
+    module("solving.jobs").KEPT.clear()
     tile()
     assert np.array_equal(uv(obj), before)
 

@@ -117,6 +117,20 @@ def whole_report(maps: Sequence[Map], parts: Sequence[dict[str, Any]], repairs: 
     return plain({"verdict": vars(found.verdict), "whole": figures})
 
 
+def parts_report(
+    parts: Sequence[tuple[Surface, Map | None, str]], refused: Sequence[Refused], repairs: Repairs
+) -> dict[str, Any]:
+    """What is known of a mesh: `components`, the reports of its parts and of what was left out, its `repairs`, and the
+    `whole_report`.
+
+    parts : surface, map or None, and why there is none
+    """
+    done = [part_report(made) if made else skipped_report(surface, reason) for surface, made, reason in parts]
+    entries = done + [refused_report(one) for one in refused]
+    whole = whole_report([made for _, made, _ in parts if made], entries, repairs)
+    return {**whole, "repairs": repairs_report(repairs), "components": entries}
+
+
 def repairs_report(repairs: Repairs) -> dict[str, Any]:
     """`Repairs`, with the number and the first of the elements of each kind."""
     arrays = {name: value for name, value in vars(repairs).items() if isinstance(value, np.ndarray)}

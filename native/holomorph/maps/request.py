@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numbers
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -16,9 +16,11 @@ from ..mesh.given_vertices import on_part
 from ..mesh.surface import Surface
 from ..tiling.tiling import Poles
 from .automatic_structure import AnyStructure
+from .chosen_structures import PartStructure
 
 MAIN_MAPS = ("automatic", "seamless", "untiled", "balanced")
 EVENNESS = 0.5  # what suits textures: squares hardly differ in size, and their shear is not seen
+MIXED_EVENED = 20_000  # triangles up to which maps are evened while forms are mixed: it takes 0.2 s
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,6 +82,49 @@ def request_of_part(
     return Request(
         part, structure, main, poles, evenness, direction, options=options | {"allowed": allowed, "moves": own}
     )
+
+
+def requests_of_parts(
+    parts: Sequence[PartStructure],
+    main: str,
+    poles: Poles,
+    allowed: ArrayLike | None,
+    moves: Sequence[tuple[int, int]],
+    evenness: float,
+    direction: ArrayLike | str | None,
+    options: dict[str, Any],
+    amounts: Sequence[float] = (),
+    phases: Sequence[float] = (),
+) -> list[Request]:
+    """The `Request`s for parts of a mesh; "automatic" is "balanced" on those where a structure was chosen, or without
+    area.
+
+    amounts, phases : factor and phase (radians) of the share of each form in balanced maps; where some change them,
+        maps of more than `MIXED_EVENED` triangles are not evened
+    """
+    is_mixed = any(amount != 1 for amount in amounts) or any(phase != 0 for phase in phases)
+    made = []
+    for part in parts:
+        is_open = main == "automatic" and not part.is_chosen and part.surface.area > 0
+        own = main if is_open or main != "automatic" else "balanced"
+        is_slow = own == "balanced" and is_mixed and len(part.surface.triangles) > MIXED_EVENED
+        given, evened = (part.surface, part.structure, own, poles, allowed, moves), 0.0 if is_slow else evenness
+        made.append(request_of_part(*given, evened, direction, options))
+        if own == "balanced":
+            made[-1] = replace(made[-1], coefficients=_mixed_coefficients(part.structure, amounts, phases))
+    return made
+
+
+def _mixed_coefficients(structure, amounts, phases):
+    """The balanced coefficients with these factors and phases. Real where the balanced ones are: a complex factor would
+    bend the straight boundaries."""
+    result = np.array(structure.balanced_coefficients())
+    factors = np.array(amounts, float)
+    if np.iscomplexobj(result):
+        factors = factors * np.exp(1j * np.array(phases, float))
+    shared = min(len(result), len(factors))
+    result[:shared] *= factors[:shared]
+    return result
 
 
 def _plain(value):

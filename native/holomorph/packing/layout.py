@@ -24,7 +24,6 @@ GAP_ROUNDS = 4  # the gap is a share of a side that depends on the gap; each rou
 
 def rows(sizes: Reals, width: float, gap: float) -> tuple[Reals, tuple[float, float]]:
     """((n, 2) lower left corners, (w, h) of the whole): the rectangles of (n, 2) `sizes` on shelves of `width`."""
-    width, gap = real_number(width, "width"), real_number(gap, "gap")
     order = np.argsort(-sizes[:, 1], kind="stable")
     corners = np.zeros_like(sizes)
     x = y = widest = height = 0.0

@@ -109,7 +109,7 @@ def of_class(kind):
 
 def of_addon(name):
     """The defaults of a dataclass of the add-on, which is not imported: it needs Blender."""
-    tree = ast.parse((ROOT / "addon" / "maps" / "options.py").read_text(encoding="utf-8"))
+    tree = ast.parse((ROOT / "addon" / "maps" / "mapped.py").read_text(encoding="utf-8"))
     (found,) = (node for node in tree.body if isinstance(node, ast.ClassDef) and node.name == name)
     assigned = [node for node in found.body if isinstance(node, ast.AnnAssign) and isinstance(node.value, ast.Constant)]
     return {node.target.id: node.value.value for node in assigned}

@@ -158,13 +158,13 @@ def run(main="BALANCED", **options):
 
 
 def then(count=1, **options):
-    """What follows the solves of a `jobs.Job`: maps with these `options.MapOptions`."""
-    library = {name: importlib.import_module(f"holomorph_addon.maps.{name}") for name in ("mapped", "options")}
-    return library["mapped"].follow([library["options"].MapOptions(**options)] * count)
+    """What follows the solves of a `jobs.Job`: maps with these `mapped.MapOptions`."""
+    mapped = importlib.import_module("holomorph_addon.maps.mapped")
+    return mapped.follow([mapped.MapOptions(**options)] * count)
 
 
 def written(obj, **options):
-    """The `outcome.Outcome` of maps with these `options.MapOptions`."""
+    """The `report.Outcome` of maps with these `mapped.MapOptions`."""
     names = ("scene.targets", "solving.jobs", "results.write", "writing.transaction")
     targets, jobs, write, transaction = (importlib.import_module(f"holomorph_addon.{name}") for name in names)
     found = targets.collect([obj])

@@ -9,27 +9,26 @@ from .. import compatibility
 from ..materials import material as shown
 from ..writing import transaction
 from . import images
-from .channels import ChannelCopy, check
-from .options import HEIGHT, NORMAL
+from .channels import HEIGHT, NORMAL, ChannelCopy, check
 
 FLAT = (0.5, 0.5, 1.0, 1.0)  # a normal that stands upright
 BLACK = (0.0, 0.0, 0.0, 1.0)
 
 
 @contextmanager
-def room():
-    """Gives the `Room`."""
+def bake_scene():
+    """Gives the `BakeScene`."""
     made = []
     with ExitStack() as in_the_end:
         in_the_end.callback(clear, made)
-        yield Room(made)
+        yield BakeScene(made)
 
 
 def clear(made):
     transaction.remove(made)
 
 
-class Room:
+class BakeScene:
     """made : the list to which data-blocks are added in the line that makes them"""
 
     def __init__(self, made):

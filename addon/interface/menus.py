@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pie menu, and the keys: Shift U for it, Ctrl Shift U for the maps. Both are in Preferences, Keymap, and can be
-changed there."""
+"""The pie menu, the keys, and the presets that come with the add-on.
+
+Shift U is for the pie menu, Ctrl Shift U for the maps: Preferences, Keymap, has both. The presets are in Blender's own
+menu of an operator's presets: Blender looks for presets in folders of its own, whose list an add-on can extend in new
+versions only.
+"""
+
+from pathlib import Path
 
 import bpy
 
@@ -36,7 +42,40 @@ class HOLOMORPH_MT_pie(bpy.types.Menu):
         pie.operator(texel_operators.HOLOMORPH_OT_texels_set.bl_idname)
 
 
+FOLDER = Path(__file__).parents[1] / "presets" / "operator"
+NAMES = HOLOMORPH_OT_maps.bl_idname, HOLOMORPH_OT_tile.bl_idname  # of the operators, and of their folders
+MENU = "WM_MT_operator_presets"
+
+
+def _draw(menu, context):
+    operator = context.active_operator
+    name = next((n for n in NAMES if operator is not None and operator.bl_idname == _class_name(n)), None)
+    if name is None:
+        return
+    menu.layout.separator()
+    menu.path_menu(
+        [str(FOLDER / name)],
+        menu.preset_operator,
+        props_default={"menu_idname": MENU},
+        filter_ext=lambda extension: extension == ".py",
+    )
+
+
+def _class_name(idname):
+    """The name of an operator's class, as an operator that was run has it."""
+    room, name = idname.split(".")
+    return f"{room.upper()}_OT_{name}"
+
+
 def register():
+    _register_keys()
+    if not bpy.app.background:
+        for name in NAMES:  # without a folder for the user's own presets, Blender's menu says that paths are missing
+            bpy.utils.user_resource("SCRIPTS", path=str(Path("presets", "operator", name)), create=True)
+    getattr(bpy.types, MENU).append(_draw)
+
+
+def _register_keys():
     bpy.utils.register_class(HOLOMORPH_MT_pie)
     keys = bpy.context.window_manager.keyconfigs.addon
     if keys is None:  # without a window
@@ -50,6 +89,7 @@ def register():
 
 
 def unregister():
+    getattr(bpy.types, MENU).remove(_draw)
     while _entries:
         keymap, item = _entries.pop()
         keymap.keymap_items.remove(item)

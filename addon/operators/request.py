@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is asked for by the properties of an operator, or by the headless command under the same names, and its run."""
+
+import math
+
+import numpy as np
+
+from ..maps import mapped
+from ..maps.mapped import TILING, MapOptions, TileOptions
+from ..materials import material
+from ..materials.user_texture import AUTOMATIC, IMAGE, MATERIAL
+from ..results import report, stored, write
+from ..results.write import WriteOptions
+from ..scene import gathering, mesh_io, targets
+from ..solving import jobs
+from ..solving.jobs import Choices
+
+FACES = {"AUTOMATIC": jobs.SELECTED, "FACES": jobs.ASKED}  # by the use of the selection
+AXES = "XYZ"
+ALLOWING = 0.5  # weight of a vertex above which a pole may be there
+SQUARES = 4  # of the checker, across an image
+# Lattices that quarter turns of a map that is made leave as they are, and so the texture whole. On others it is turned
+# before its jumps are rounded.
+QUARTERED = ("square", ((1.0, 0.0), (0.0, 1.0)))
+
+
+class Run:
+    """What properties ask for of these `targets.Target`s: a request, the solves, the maps, writing, the report.
+    @throws ValueError there is nothing of what is asked for on one of them
+
+    own : the `user_texture.Own` that is their texture, None for one of ours
+    """
+
+    def __init__(self, properties, found, own=None):
+        self.tasks, self._found, self._is_equal = targets.tasks(found), found, properties.equal
+        options = _tile_options if properties.is_tiling else _map_options
+        self._options = [options(properties, target, own) for target in found if not target.refused]
+        self._write_options = _write_options(properties, own)
+
+    def job(self, progress=None):
+        """The `jobs.Job` that solves and maps."""
+        return jobs.Job(self.tasks, progress, mapped.follow(self._options, self._is_equal))
+
+    @property
+    def objects(self):
+        """The objects that may be written to."""
+        return targets.objects(self._found)
+
+    def write(self, step, job, time_has_passed=False):
+        """Writes the results of the job, in a `transaction.Step` of the objects. Returns the `report.Outcome`."""
+        results = targets.align(self._found, job.results)
+        return write.write(step, self._found, results, self._write_options, time_has_passed)
+
+
+def choices(properties):
+    """The `jobs.Choices`. @throws ValueError residues that are not numbers"""
+    if properties.is_tiling:
+        is_selection_taken = properties.poles == "SELECTED" or properties.direction == "EDGES"
+        return Choices(faces=jobs.WHOLE if is_selection_taken else jobs.SELECTED, modifiers=properties.modifiers)
+    are_islands, use = properties.main == "ISLANDS", properties.use_selection
+    return Choices(
+        use=jobs.NONE if use == "FACES" else use,
+        faces=FACES.get(use, jobs.WHOLE),
+        residues=jobs.numbers(properties.residues),
+        cut_at_seams=properties.cut_at_seams or are_islands,
+        boundary=jobs.ISLANDS if are_islands else properties.boundary,
+        solver=properties.solver,
+        modifiers=properties.modifiers,
+        hard_edges=math.degrees(properties.hard_edges) if are_islands else 0.0,
+        most_stretch=properties.most_stretch if are_islands else 0.0,
+    )
+
+
+def _map_options(properties, _target, own):
+    """The `mapped.MapOptions`, the same for every object."""
+    lattice = {} if own is None else {"lattice": own.lattice}
+    tiling = TileOptions(density=_density(properties.size, 1), evenness=properties.evenness, **lattice)
+    return MapOptions(
+        properties.forms,
+        properties.density,
+        properties.rotation,
+        tuple(properties.amounts),
+        tuple(properties.turns),
+        properties.margin,
+        properties.main,
+        tiling=tiling,
+    )
+
+
+def _tile_options(properties, target, own):
+    """The `mapped.MapOptions` for a `targets.Target` with its selection."""
+    obj = target.find()
+    if target.makes_object and _are_on_the_mesh(properties):
+        raise ValueError(f"{obj.name}: select poles and edges on the mesh itself, not on the result of its modifiers")
+    lattice = "square" if properties.lattice == AUTOMATIC else properties.lattice
+    lattice = lattice if own is None else own.lattice
+    quarters = properties.quarters if lattice in QUARTERED else 0
+    tiling = TileOptions(
+        tiles=0.0 if properties.size else float(properties.tiles),
+        density=_density(properties.size, properties.repeats),
+        poles=_poles(properties, obj),
+        lattice=lattice,
+        direction=_direction(properties, obj),
+        boundary=properties.boundary,
+        turn=(properties.quarters - quarters) * math.pi / 2 + properties.turn,
+        quarters=quarters,
+        pole_group=properties.pole_group,
+        allowed=allowed(properties.pole_group, obj),
+        evenness=properties.evenness,
+    )
+    return MapOptions(forms=0, main=TILING, tiling=tiling)
+
+
+def _density(size, repeats):
+    """The UV area over the area of the surface, for images of the texture of a width, of which `repeats` lie side by
+    side in a UV unit; 0 where no size is asked for."""
+    return 1 / (size * repeats) ** 2 if size else 0.0
+
+
+def _write_options(properties, own):
+    texture = properties.texture
+    if texture in (IMAGE, MATERIAL) and own is None:  # which is not yet chosen
+        texture = material.CHECKER
+    shared = {"seams": properties.seams, "size": properties.size, "own": own}
+    if not properties.is_tiling:
+        shown = properties.shown, properties.checker, texture, properties.checker_scale
+        return WriteOptions(*shown, shape=properties.shape, **shared)
+    cells = properties.repeats * (SQUARES if texture == material.CHECKER else material.cells(texture))
+    return WriteOptions(0, properties.checker, texture, cells, empties=properties.empties, **shared)
+
+
+def _are_on_the_mesh(properties):
+    return properties.poles in ("SELECTED", "KEPT") or properties.direction == "EDGES" or bool(properties.pole_group)
+
+
+def _poles(properties, obj):
+    if properties.poles == "COUNT":
+        return properties.pole_count
+    if properties.poles == "AUTOMATIC":
+        return "auto"
+    if properties.poles == "KEPT":
+        return _kept_poles(obj)
+    if properties.poles == "COARSE":
+        return _poles_where_coarse(obj)
+    selected = tuple(sorted(mesh_io.selected_vertices(obj.data).tolist()))
+    if not selected:
+        raise ValueError(f"{obj.name}: select the vertices to use as poles")
+    return selected
+
+
+def _kept_poles(obj):
+    vertices, is_pole = stored.marks(obj.get(report.PROPERTY))
+    kept = vertices[is_pole & (vertices < len(obj.data.vertices))]
+    if not len(kept):
+        raise ValueError(f"{obj.name}: it has no poles from an earlier tiling")
+    return tuple(sorted(kept.tolist()))
+
+
+def _poles_where_coarse(obj):
+    """The poles of the last tiling, and the coarsest vertices of the places that its report names."""
+    text = obj.get(report.PROPERTY)
+    vertices, is_pole = stored.marks(text)
+    if not is_pole.any():
+        return "auto"
+    found = [place["vertex"] for place in stored.parsed(text).get("coarse_places", [])]
+    poles = {*vertices[is_pole].tolist(), *found}
+    return tuple(sorted(vertex for vertex in poles if vertex < len(obj.data.vertices)))
+
+
+def allowed(name, obj):
+    """Where poles may be, see `mapped.TileOptions`: where the group's weight is above `ALLOWING`."""
+    if not name:
+        return None
+    group = obj.vertex_groups.get(name)
+    if group is None:
+        raise ValueError(f"{obj.name}: there is no vertex group {name!r}")
+    mask = mesh_io.weights(obj.data, group.index) > ALLOWING
+    if not mask.any():
+        raise ValueError(f"{obj.name}: no vertex has a weight above {ALLOWING} in {name!r}")
+    return mask.tobytes()
+
+
+def _direction(properties, obj):
+    """The direction of `mapped.TileOptions`, in the frame of the polygons: as the object stands in space, without its
+    translation."""
+    if properties.direction in ("NONE", "UPRIGHT"):
+        return None if properties.direction == "NONE" else "upright"
+    linear = gathering.linear(obj)
+    if properties.direction in AXES:
+        axis = linear[:, AXES.index(properties.direction)]
+        if not _has_length(axis):
+            raise ValueError(f"{obj.name}: its {properties.direction} axis is scaled to 0: choose another direction")
+        return tuple(axis.tolist())
+    edges = mesh_io.edge_vectors(obj.data, mesh_io.marked_edges(obj.data, "select")) @ linear.T
+    if not _has_length(edges):
+        raise ValueError(f"{obj.name}: select the edges for the rows to follow")
+    return mean_direction(edges)
+
+
+def _has_length(vectors):
+    return vectors.any() and np.isfinite(vectors).all()
+
+
+def mean_direction(vectors):
+    """The line that (n, 3) vectors lie along most, whichever way each points: the first axis of their moments; its
+    largest coordinate is positive."""
+    vectors = vectors / np.abs(vectors).max()
+    _, axes = np.linalg.eigh(vectors.T @ vectors)
+    axis = axes[:, -1]
+    return tuple((axis * np.sign(axis[np.argmax(np.abs(axis))])).tolist())
