@@ -114,8 +114,6 @@ def _take_over(options):
     options.use_selection, options.amounts, options.turns = options.selection.upper(), (), ()
     if options.seamless:
         options.turn, options.quarters, options.repeats, options.empties = options.rotation, 0, 1, False
-        if options.boundary == "natural":
-            options.boundary = "automatic"
         if options.poles.isdecimal():
             options.poles, options.pole_count = "COUNT", int(options.poles)
     options.is_tiling = options.seamless
@@ -128,12 +126,6 @@ def _add_choices(parser):
     group.add_argument("--selection", choices=("automatic", "faces", "poles", "rectangle", "none"), default="none")
     _add_properties(group, SharedProperties, "modifiers")
     _add_properties(group, MapProperties, "residues", "cut_at_seams", "hard_edges", "most_stretch")
-    group.add_argument(
-        "--boundary",
-        choices=("natural", "double_cover", "automatic", "straight", "free"),
-        default="natural",
-        help="treatment of holes; with --seamless: automatic (default), straight or free",
-    )
     group.add_argument("--solver", default="auto", help="as in holomorph.conformal_structure")
 
 
@@ -141,7 +133,7 @@ def _add_tilings(parser):
     group = parser.add_argument_group("seamless tilings, only with --seamless")
     group.add_argument("--seamless", action="store_true", help="one map, cut by whole tiles of a texture")
     group.add_argument("--poles", default="automatic", help="automatic, selected (in the .blend), or a number per part")
-    _add_properties(group, TileProperties, "tiles", "pole_group", "lattice", "direction")
+    _add_properties(group, TileProperties, "tiles", "pole_group", "lattice", "direction", "boundary")
 
 
 def _add_bake(parser):
@@ -183,9 +175,8 @@ def _check_values(options):
     is_used = options.main == "islands"
     _refuse_if(options.hard_edges and not is_used, "--hard-edges cuts islands: it needs --main islands")
     _refuse_if(options.most_stretch and not is_used, "--most-stretch cuts islands: it needs --main islands")
-    boundaries = ("natural", "automatic", "straight", "free") if options.seamless else ("natural", "double_cover")
-    sentence = "--boundary must be automatic, straight or free with --seamless, natural or double_cover without"
-    _refuse_if(options.boundary not in boundaries, sentence)
+    is_other = options.boundary != "automatic"
+    _refuse_if(is_other and not options.seamless, "--boundary is about tilings: it needs --seamless")
     poles = options.poles
     is_number = poles.isdecimal() and int(poles) <= MOST_POLES
     sentence = f"--poles: {poles!r} is not automatic, selected, or a number from 0 to {MOST_POLES}"

@@ -29,11 +29,6 @@ SELECTION_USES = items(
     RECTANGLE="The four selected vertices on the boundary of a disk become the corners of an exact rectangle",
     NONE="Ignore the selection",
 )
-BOUNDARIES = items(
-    natural="Solve on the surface itself: fast",
-    double_cover="Glue two copies of the surface along the boundary and solve on the closed double: the same result at "
-    "more than twice the cost",
-)
 SOLVER_TEXTS = {
     "auto": ("Automatic", "Chosen by size and number of forms"),
     "direct": ("Direct", "Sparse Cholesky factorisation"),
@@ -90,7 +85,6 @@ ABOUT = {
     "residues": "One number for each pole, in the order of selection, for example 1 1 -2; they sum to 0 on a "
     "closed surface, and may be complex (1+0.5j). Empty: chosen automatically",
     "cut": "Cut the maps along your seams where these make each part a disk; else the report says why not",
-    "boundary": "How surfaces with a boundary are solved",
     "solver": "How the linear systems are solved",
     "amounts": "Share of each form in the main map: it moves the places where squares are large and small. At 1, "
     "their sizes are most even. While you mix forms, Evenness has no effect on parts of more than 20,000 triangles",
@@ -168,7 +162,7 @@ class MapProperties(SharedProperties):
     drawn = (
         ("main", "evenness", "hard_edges", "most_stretch", "density", "equal", "margin", "rotation", "forms", "shown"),
         ("checker", "texture", "source", "size", "checker_scale", "seams", "shape"),
-        ("use_selection", "modifiers", "residues", "cut_at_seams", "boundary", "solver"),
+        ("use_selection", "modifiers", "residues", "cut_at_seams", "solver"),
     )
     main: main_property("AUTOMATIC")
     forms: IntProperty(name="Form Maps", description=ABOUT["forms"], default=8, min=0, soft_max=32)
@@ -186,7 +180,6 @@ class MapProperties(SharedProperties):
     )
     residues: StringProperty(name="Residues", description=ABOUT["residues"], default="", options=ONCE)
     cut_at_seams: BoolProperty(name="Use Seams as Cut", description=ABOUT["cut"], default=False)
-    boundary: EnumProperty(name="Boundary", description=ABOUT["boundary"], items=BOUNDARIES, default="natural")
     solver: EnumProperty(name="Solver", description=ABOUT["solver"], items=solver_items, default=0)
     amounts: FloatVectorProperty(
         name="Amount", description=ABOUT["amounts"], size=FORMS, default=(1.0,) * FORMS, soft_min=0.0, soft_max=4.0

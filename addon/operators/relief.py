@@ -16,7 +16,6 @@ ABOUT = {
     "level": "Grey level that stays on the surface: 0 raises, 1 engraves",
     "tolerance": "Largest error of the triangles, from 0 to 1 of the depth",
     "most_triangles": "Limit on the triangles; those with the largest errors are halved first",
-    "pole_fade": "Number of tiles over which the picture fades out around a pole",
 }
 
 
@@ -37,13 +36,10 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
     most_triangles: IntProperty(
         name="Most Triangles", description=ABOUT["most_triangles"], default=1_000_000, min=1, soft_max=10_000_000
     )
-    pole_fade: FloatProperty(
-        name="Fade at Poles", description=ABOUT["pole_fade"], default=0.25, min=0.01, soft_max=10.0
-    )
 
     def draw_options(self, layout, _obj):
         layout.prop_search(self, "image", bpy.data, "images")
-        for name in ("depth", "repeats", "level", "tolerance", "most_triangles", "pole_fade"):
+        for name in ("depth", "repeats", "level", "tolerance", "most_triangles"):
             layout.prop(self, name)
 
     def prepare(self, context):
@@ -71,7 +67,7 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
         polygons, uv, lattice = self._source
         if self._is_turned:
             polygons, uv = relief.turned_over(polygons, uv)
-        names = ("level", "tolerance", "most_triangles", "pole_fade")
+        names = ("level", "tolerance", "most_triangles")
         return relief.RaisingWork(
             polygons,
             uv,

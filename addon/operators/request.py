@@ -63,7 +63,7 @@ def choices(properties):
         faces=FACES.get(use, jobs.WHOLE),
         residues=jobs.numbers(properties.residues),
         cut_at_seams=properties.cut_at_seams or are_islands,
-        boundary=jobs.ISLANDS if are_islands else properties.boundary,
+        are_islands=are_islands,
         solver=properties.solver,
         modifiers=properties.modifiers,
         hard_edges=math.degrees(properties.hard_edges) if are_islands else 0.0,

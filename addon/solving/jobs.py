@@ -20,7 +20,7 @@ from ..native import holomorph, module
 structures = module("maps.chosen_structures")
 
 NONE, POLES, RECTANGLE = structures.NONE, structures.POLES, structures.RECTANGLE  # what the selection is
-AUTOMATIC, ISLANDS, NO_EDGES = structures.AUTOMATIC, structures.ISLANDS, structures.NO_EDGES
+AUTOMATIC, NO_EDGES = structures.AUTOMATIC, structures.NO_EDGES
 # Which faces are mapped: all; in edit mode the selected ones if there are any; these, or a refusal.
 WHOLE, SELECTED, ASKED = "WHOLE", "SELECTED", "ASKED"
 DOUBLE = 8  # bytes

@@ -22,7 +22,6 @@ from ..mesh.surface import Surface
 from .automatic_structure import AnyStructure, automatic_structure
 
 AUTOMATIC, POLES, RECTANGLE, NONE = "AUTOMATIC", "POLES", "RECTANGLE", "NONE"  # what chosen vertices are
-ISLANDS = "islands"  # as a boundary: the mesh is cut along its seams into parts, each flattened by itself
 CORNERS = 4
 NO_EDGES = np.empty((0, 2), np.int64)
 UV_START = 0.6  # fraction of the work after which the potentials of the maps are solved for
@@ -38,7 +37,7 @@ class Choices:
     vertices : in the order in which they were chosen
     residues : one for each pole; none lets them be chosen
     seams : (#S, 2) vertices
-    boundary : as in `automatic_structure`, or "islands"
+    are_islands : the mesh is cut along its seams into parts, each flattened by itself
     hard_edges : degrees; islands are cut along sharper edges, too; 0 for the seams alone
     most_stretch : islands are cut open where lengths change by a larger factor; 0 for no such cuts
     """
@@ -47,8 +46,8 @@ class Choices:
     vertices: tuple[int, ...] | None = None
     residues: tuple[complex, ...] = ()
     seams: Integers = field(default_factory=lambda: NO_EDGES, compare=False)
-    boundary: str = "natural"
     solver: str = "auto"
+    are_islands: bool = False
     hard_edges: float = 0.0
     most_stretch: float = 0.0
 
@@ -56,15 +55,11 @@ class Choices:
     def key(self) -> tuple[Any, ...]:
         """Equal for choices that give the same structures."""
         chosen = (self.use, self.vertices, self.residues) if self.vertices else ()
-        return (*chosen, self.seams.tobytes(), self.boundary, self.solver, self.hard_edges, self.most_stretch)
+        return (*chosen, self.seams.tobytes(), self.solver, self.are_islands, self.hard_edges, self.most_stretch)
 
     @property
     def is_explicit(self) -> bool:
         return self.use in (POLES, RECTANGLE)
-
-    @property
-    def are_islands(self) -> bool:
-        return self.boundary == ISLANDS
 
 
 @dataclass(frozen=True)
@@ -154,28 +149,23 @@ def _structure_of_part(part, surface, vertices, choices, progress):
 def wanted(part: Surface, choices: Choices) -> list[dict[str, Any]]:
     """Keywords of `automatic_structure` for a part, the most wanted first; the later ones leave out what is not
     explicit. Vertices are those of the mesh as given."""
-    base = {"solver": choices.solver, "boundary": choices.boundary}
+    base = {"solver": choices.solver}
     if choices.are_islands:
-        return [_with_fitting_method(part, base | {"boundary": boundary}) for boundary in ("free", "natural")]
+        return [_with_fitting_solver(part, keywords) for keywords in (base | {"boundary": "free"}, base)]
     seams = choices.seams[np.isin(choices.seams, part.vertex_index).all(axis=1)]
     found = [base | {"cuts": seams}, base] if len(seams) else [base]
     selection = _selection(part, choices)
     if selection:
         selected = [keywords | selection for keywords in found]
         found = selected if choices.is_explicit else selected + found
-    return [_with_fitting_method(part, keywords) for keywords in found]
+    return [_with_fitting_solver(part, keywords) for keywords in found]
 
 
-def _with_fitting_method(part, keywords):
-    """The double is for the forms of surfaces with boundary, the paper's solver for all parts that have forms: other
-    parts of a mesh are solved as usual."""
-    is_open = part.boundary_count > 0
-    is_formless = keywords["boundary"] == "free" or _has_selection(keywords)
-    has_forms = not is_formless and 2 * part.genus + part.boundary_count - is_open > 0
-    if keywords["boundary"] == "double_cover" and not (is_open and has_forms):
-        keywords = keywords | {"boundary": "natural"}
-    if keywords["solver"] == "paper" and not has_forms:
-        keywords = keywords | {"solver": "auto"}
+def _with_fitting_solver(part, keywords):
+    """The paper's solver is for parts that have forms: other parts of a mesh are solved as usual."""
+    has_forms = 2 * part.genus + part.boundary_count - (part.boundary_count > 0) > 0
+    if keywords["solver"] == "paper" and (not has_forms or "boundary" in keywords or _has_selection(keywords)):
+        return keywords | {"solver": "auto"}
     return keywords
 
 
@@ -218,7 +208,7 @@ def _made(part, surface, vertices, keywords, note, progress):
     structure = replace(structure, surface=surface)  # so do its results
     units = np.eye(structure.form_count, dtype=structure.coefficient_type)
     structure.uv(units[0] if len(units) else ())  # refused here, where it is not finite
-    is_chosen = names_vertices or keywords["boundary"] != "natural" or keywords["solver"] == "paper"
+    is_chosen = names_vertices or "boundary" in keywords or keywords["solver"] == "paper"
     return PartStructure(part, structure, note=note, is_chosen=is_chosen)
 
 

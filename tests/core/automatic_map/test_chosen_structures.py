@@ -6,7 +6,6 @@ from families import cylinder, geodesic_sphere, torus
 from holomorph import InvalidMesh, Surface, TopologyError
 from holomorph.maps.chosen_structures import (
     AUTOMATIC,
-    ISLANDS,
     NONE,
     POLES,
     RECTANGLE,
@@ -42,22 +41,19 @@ def test_each_part_gets_its_own_vertices_and_residues():
 
 def test_what_was_only_found_is_left_out_in_the_end():
     part = surface_of(GRID)
-    found = wanted(part, Choices(AUTOMATIC, (24,), seams=SEAMS, boundary="double_cover"))
+    found = wanted(part, Choices(AUTOMATIC, (24,), seams=SEAMS))
     assert [("poles" in w, "cuts" in w) for w in found] == [(1, 1), (1, 0), (0, 1), (0, 0)]
-    assert all(w["boundary"] == "natural" for w in found)  # a disk has no forms
     explicit = wanted(part, Choices(POLES, (24,), seams=SEAMS))
     assert [("poles" in w, "cuts" in w) for w in explicit] == [(1, 1), (1, 0)]
-    assert wanted(part, Choices(NONE, (24,))) == [{"solver": "auto", "boundary": "natural"}]
+    assert wanted(part, Choices(NONE, (24,))) == [{"solver": "auto"}]
 
 
-def test_methods_are_taken_where_they_fit():
+def test_the_solver_of_the_paper_is_for_parts_with_forms():
     ring, closed, sphere = (surface_of(mesh) for mesh in (cylinder(8, 3), TORUS, geodesic_sphere(3)))
-    chosen = Choices(boundary="double_cover", solver="paper")
-    found = [wanted(part, chosen)[0] for part in (ring, closed, sphere)]
-    assert [k["boundary"] for k in found] == ["double_cover", "natural", "natural"]
-    assert [k["solver"] for k in found] == ["paper", "paper", "auto"]
-    free, natural = wanted(ring, Choices(boundary=ISLANDS, solver="paper"))
-    assert (free["boundary"], free["solver"], natural["solver"]) == ("free", "auto", "paper")
+    chosen = Choices(solver="paper")
+    assert [wanted(part, chosen)[0]["solver"] for part in (ring, closed, sphere)] == ["paper", "paper", "auto"]
+    free, natural = wanted(ring, Choices(are_islands=True, solver="paper"))
+    assert free == {"boundary": "free", "solver": "auto"} and natural == {"solver": "paper"}
     assert wanted(closed, Choices(POLES, (3, 150), solver="paper"))[0]["solver"] == "auto"
 
 
