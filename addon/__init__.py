@@ -8,15 +8,14 @@ import what needs these inside their functions.
 from . import native, preferences
 from .interface import menus, panel
 from .operators import (
-    assets,
     bake,
     compare,
     drag,
+    elements,
     geometry,
     lod,
     mapping,
     relief,
-    stretched,
     texel_operators,
     tools,
 )
@@ -37,16 +36,15 @@ MODULES = (
     preferences,
     mapping,
     drag,
+    elements,
     lod,
     geometry,
     relief,
     texel_operators,
     compare,
     bake,
-    assets,
     overlay,
     tools,
-    stretched,
     panel,
     menus,
 )

@@ -10,6 +10,18 @@ import numpy as np
 
 UV_MAP_LIMIT = 8  # Blender's own: the ninth `uv_layers.new` returns None
 
+# Attributes by their types: the name, type and number of an element's values.
+ATTRIBUTES = {
+    "FLOAT": ("value", np.float32),
+    "INT": ("value", np.int32),
+    "INT8": ("value", np.int32),
+    "BOOLEAN": ("value", bool),
+    "FLOAT_VECTOR": ("vector", np.float32, 3),
+    "FLOAT2": ("vector", np.float32, 2),
+    "FLOAT_COLOR": ("color", np.float32, 4),
+    "BYTE_COLOR": ("color", np.float32, 4),
+}
+
 
 class Values(NamedTuple):
     """A property of all elements of a collection, `width` numbers for each.

@@ -6,13 +6,17 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..materials import baked, material
+from ..materials import material, nodes
 from ..results import heat, restore, tags
 from ..results.report import Outcome
 from ..scene import gathering, uv_maps
 from ..writing import transaction
 from . import images
 from .channels import ONE, UDIM
+
+ROWS = 300  # distance of image nodes, in the editor's units
+ROUGHNESS = 0.5  # where none is baked
+INPUTS = {"COLOUR": "Base Color", "ROUGHNESS": "Roughness", "METALLIC": "Metallic"}  # others have nodes of their own
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,12 +59,32 @@ def _write_object(obj, polygons, uv, made):
     uv_maps.show_map(obj.data, name)
     heat.refresh(obj)
     if name not in made.materials:
-        made.materials[name] = baked.build("Baked", name, made.images)
+        made.materials[name] = _material("Baked", name, made.images)
     own = material.before_bake(obj)
     for each in (obj, *(other for other in gathering.others(obj) if material.before_bake(other) == own)):
         material.cover_baked(each, made.materials[name])
     made.objects.append(obj)
     obj.data.update()
+
+
+def _material(name, map_name, images):
+    """A new material; images by channel. A height stands beside the others, linked to nothing."""
+    made = bpy.data.materials.new(name)
+    made[material.OURS] = True
+    tree = nodes.Tree.of(made)
+    vector, shader = tree.map_vector(map_name, is_attribute=False), tree.shader(ROUGHNESS)
+    for row, (channel, image) in enumerate(images.items()):
+        picture = tree.node("ShaderNodeTexImage", -600, 400 - ROWS * row, channel.title(), image=image)
+        tree.link(vector, picture.inputs["Vector"])
+        if channel in INPUTS:
+            tree.link(picture.outputs[0], shader.inputs[INPUTS[channel]])
+        elif channel == "NORMAL":
+            turned = tree.node("ShaderNodeNormalMap", -300, 400 - ROWS * row, uv_map=map_name)
+            tree.link(picture.outputs[0], turned.inputs["Color"])
+            tree.link(turned.outputs[0], shader.inputs["Normal"])
+        if row == 0:
+            tree.show_in_solid_view(picture)
+    return made
 
 
 def _outdated(made):

@@ -12,9 +12,10 @@ import bpy
 
 from ..operators import texel_operators
 from ..operators.drag import HOLOMORPH_OT_drag_poles
+from ..operators.elements import HOLOMORPH_OT_select_bad
 from ..operators.lod import HOLOMORPH_OT_levels
 from ..operators.mapping import HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
-from ..operators.tools import HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_restore_materials, HOLOMORPH_OT_select_bad
+from ..operators.tools import HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_restore_materials
 
 KEY = "U"
 KEYMAPS = ("Object Mode", "EMPTY"), ("Mesh", "EMPTY"), ("UV Editor", "EMPTY")  # name, kind of space

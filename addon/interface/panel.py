@@ -5,14 +5,13 @@ import bpy
 
 from .. import native
 from ..operators import (
-    assets,
     bake,
     compare,
     drag,
+    elements,
     geometry,
     lod,
     relief,
-    stretched,
     texel_operators,
     tools,
 )
@@ -106,11 +105,11 @@ class _ToolsPanel(_Panel):
         row.operator(texel_operators.HOLOMORPH_OT_texels_get.bl_idname, text="Get")
         row.operator(texel_operators.HOLOMORPH_OT_texels_set.bl_idname, text="Set")
         column = self.layout.column(align=True)
-        column.operator(tools.HOLOMORPH_OT_select_bad.bl_idname)
-        column.operator(stretched.HOLOMORPH_OT_select_stretched.bl_idname)
-        column.operator(tools.HOLOMORPH_OT_repair.bl_idname)
+        column.operator(elements.HOLOMORPH_OT_select_bad.bl_idname)
+        column.operator(elements.HOLOMORPH_OT_select_stretched.bl_idname)
+        column.operator(elements.HOLOMORPH_OT_repair.bl_idname)
         column.operator(tools.HOLOMORPH_OT_remove_maps.bl_idname)
-        column.operator(assets.HOLOMORPH_OT_assets.bl_idname)
+        column.operator(tools.HOLOMORPH_OT_assets.bl_idname)
         if self.bl_space_type == "VIEW_3D":
             column = self.layout.column(align=True)
             column.operator(compare.HOLOMORPH_OT_compare.bl_idname)
@@ -162,7 +161,7 @@ def _draw_menu_entry(self, _context):
     self.layout.operator_context = "INVOKE_DEFAULT"
     self.layout.operator(HOLOMORPH_OT_maps.bl_idname)
     self.layout.operator(HOLOMORPH_OT_tile.bl_idname)
-    self.layout.operator(tools.HOLOMORPH_OT_repair.bl_idname)
+    self.layout.operator(elements.HOLOMORPH_OT_repair.bl_idname)
 
 
 def _panels(name, space):

@@ -4,7 +4,6 @@
 import functools
 import math
 
-from ..maps import coarse
 from ..results import stored
 from . import lines
 
@@ -54,7 +53,7 @@ def read(text):
         found, places = stored.verdict(entry), entry.get("coarse_places")
         if found is None:
             return NOTHING
-        told = coarse.sentence(places) if places else ""
+        told = stored.coarse_sentence(places) if places else ""
         return stored.whole(entry), stored.is_joined(entry), found, told, numbers(entry)
     except (KeyError, TypeError, IndexError, AttributeError):
         return NOTHING

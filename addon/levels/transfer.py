@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import compatibility
 from ..compatibility import Values
-from ..scene import attributes, mesh_io, uv_maps
+from ..scene import mesh_io, uv_maps
 
 # Attributes of Blender's own, or that are written in another way here.
 BUILT_IN = {"position", "material_index", "sharp_face", "shade_smooth", "id", "normal"}
@@ -98,7 +98,7 @@ def _is_transferred(attribute, maps):
     name, built_in = attribute.name, attribute.name in BUILT_IN or attribute.name.startswith(".")
     return (
         attribute.domain in {"POINT", "FACE", "CORNER"}
-        and attribute.data_type in attributes.VALUES
+        and attribute.data_type in compatibility.ATTRIBUTES
         and not (built_in or name in maps)
     )
 
@@ -111,4 +111,4 @@ def _read_attribute(attribute, polygons):
 
 
 def _attribute_values(attribute):
-    return Values(attribute.data, *attributes.VALUES[attribute.data_type])
+    return Values(attribute.data, *compatibility.ATTRIBUTES[attribute.data_type])

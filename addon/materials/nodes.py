@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The node trees of materials that show a map: the checker, or a texture that tiles."""
+"""The node trees of materials that show a map: the checker, or a texture that tiles; and such materials as assets."""
+
+import bpy
 
 from .. import compatibility
+from ..scene.uv_maps import MAIN_MAP
 from . import textures
 from .patterns import TEXTURES
 
@@ -172,3 +175,27 @@ def build_plain(material, shown):
         vector = places.outputs[0]
     tree.link(vector, picture.inputs["Vector"])
     tree.link(picture.outputs[0], tree.shader(shader.inputs["Roughness"].default_value).inputs["Base Color"])
+
+
+ASSET = "holomorph_asset"  # custom property that tells them: which texture
+ASSET_UNIT = 0.25  # length of a UV unit that reliefs are made for; a value in the nodes, "Relief", has them
+ASSET_TAG = "Seamless"
+
+
+def add_assets():
+    """Makes and marks those that the file has not yet; gives them."""
+    there = {material.get(ASSET) for material in bpy.data.materials if material.library is None}
+    return [_asset(texture) for texture in TEXTURES if texture not in there]
+
+
+def _asset(texture):
+    made = bpy.data.materials.new(f"{textures.label(texture)} on Tiling")
+    made[ASSET] = texture
+    build_texture(made, texture, MAIN_MAP, is_attribute=False)
+    adjust_texture(made, texture, 1, ASSET_UNIT)
+    made.asset_mark()
+    made.asset_data.description = f"{textures.label(texture)} on the UV map {MAIN_MAP}, made by Seamless Tiling"
+    made.asset_data.tags.new(ASSET_TAG)
+    if not bpy.app.background:  # a preview is a render
+        made.asset_generate_preview()
+    return made

@@ -43,19 +43,18 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
             layout.prop(self, name)
 
     def prepare(self, context):
-        from ..materials import heights
         from ..scene import image_io
         from ..things import geometry, relief
 
         super().prepare(context)
         obj = context.view_layer.objects.active
-        shown, repeats = heights.shown(obj.active_material)
+        shown, repeats = relief.shown_heights(obj.active_material)
         image = bpy.data.images.get(self.image) if self.image else shown
         if image is None:
             raise ValueError("choose the image to raise")
         self._repeats = self.repeats or (repeats if image == shown else 1)
         try:
-            self._heights = relief.heights_of(image_io.read_file_values(image), heights.weights(image))
+            self._heights = relief.heights_of(image_io.read_file_values(image), relief.channel_weights(image))
         except ValueError as error:
             raise ValueError(f"{image.name}: {error}") from error
         self._millimetres = _millimetres(context.scene.unit_settings)

@@ -31,13 +31,13 @@ class _TexelOperator(AtOnce):
         return targets.objects(self._found)
 
     def act(self, step, _objects):
-        from ..results import texels
+        from ..results import heat
 
         metres = step.context.scene.unit_settings.scale_length
         done = 0
         for target in self._found:
-            problem = texels.why_not(target)
-            before = 0.0 if problem else texels.measured(target, self.image, metres)
+            problem = heat.why_no_texels(target)
+            before = 0.0 if problem else heat.texels(target, self.image, metres)
             if before > 0:
                 self.treat(step.context, target, before)
                 done += 1
@@ -69,10 +69,10 @@ class HOLOMORPH_OT_texels_set(_TexelOperator, bpy.types.Operator):
     texels: FloatProperty(name="Texels", description=TEXELS_TEXT, default=512.0, min=1e-3)
 
     def treat(self, _context, target, before):
-        from ..results import texels
+        from ..results import heat
 
-        factor = texels.scale(target, self.texels / before)
-        if not texels.is_met(self.texels, factor, before):
+        factor = heat.scale_texels(target, self.texels / before)
+        if not heat.is_met(self.texels, factor, before):
             nearest = f"{before * factor:.5g} texels per metre, the nearest that stays seamless"
             self.report({"INFO"}, f"{target.name}: {nearest}; Tiles also changes them")
 

@@ -9,7 +9,6 @@ import bpy
 import numpy as np
 
 from .. import compatibility, native
-from ..maps import coarse
 from ..maps.mapped import TILING
 from ..materials import material
 from ..native import holomorph
@@ -230,6 +229,6 @@ def with_coarse_places(obj, polygons, entry):
         return entry | {"coarse_places": [], "faces_without_area": 0}
     distortion = holomorph.distortion
     found = distortion.measure(polygons, uv_maps.read_corners(obj.data, polygons, entry["maps"][0]["name"]))
-    places = coarse.places(obj, polygons, found.density)
+    places = stored.coarse_places(obj, polygons, found.density)
     without_area = int(np.count_nonzero(found.angle >= distortion.COLLAPSED))
     return entry | {"coarse_places": places, "faces_without_area": without_area}

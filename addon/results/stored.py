@@ -151,3 +151,37 @@ def tiling_summary(stored):
     if len(parts) == 1:
         return [_sentence(parts[0]), *_tiling_lines(parts[0]["tiling"])]
     return [f"Part {index}: {_sentence(part)}" for index, part in enumerate(parts[:SUMMARISED], 1)]
+
+
+MOST_TIMES = 200  # beyond, the number does not matter
+SIDES = (("the -X side", "the +X side"), ("the front", "the back"), ("the bottom", "the top"))  # of an object
+
+
+def coarse_places(obj, polygons, density):
+    """The `holomorph.coarse_places` of an object as entries of a report, each with a name."""
+    found = holomorph.coarse_places(polygons, density)
+    return [{"name": _place_name(obj, polygons, place.vertex), **vars(place)} for place in found]
+
+
+def _place_name(obj, polygons, vertex):
+    """The vertex group that is strongest at a vertex; without groups, where the vertex lies on the object."""
+    groups = [group for group in obj.data.vertices[vertex].groups if group.weight > 0]
+    if groups:
+        return obj.vertex_groups[max(groups, key=lambda group: group.weight).group].name
+    size = np.maximum(np.ptp(polygons.vertices, axis=0), np.finfo(float).tiny)
+    offset = (polygons.vertices[vertex] - polygons.vertices.mean(axis=0)) / size
+    axis = int(np.argmax(np.abs(offset)))
+    return SIDES[axis][int(offset[axis] > 0)]
+
+
+def coarse_sentence(found):
+    """Such as "the top and 3 more places are 40 times coarser than the rest"; of places in a report."""
+    names = list(dict.fromkeys(place["name"] for place in found))
+    others = len(found) - 1
+    words = names[0] if others == 0 else f"{names[0]} and {others} more place{'s' if others > 1 else ''}"
+    if len(found) == 2 and len(names) == 2:
+        words = f"{names[0]} and {names[1]}"
+    times = max(place["times"] for place in found)
+    factor = f"{times:.0f}" if times < MOST_TIMES else f"over {MOST_TIMES}"
+    text = f"{words} {'is' if others == 0 else 'are'} {factor} times coarser than the rest"
+    return text[0].upper() + text[1:]

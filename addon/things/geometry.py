@@ -12,7 +12,7 @@ import numpy as np
 from .. import compatibility
 from ..compatibility import Values
 from ..results import report, stored, tags
-from ..scene import attributes, gathering, mesh_io, uv_maps
+from ..scene import gathering, mesh_io, uv_maps
 from . import pieces, placing, tree, wires
 
 PIECES_OF, WIRES_OF, CELLS_OF, RELIEF_OF = (  # custom properties
@@ -158,7 +158,7 @@ def _write_attribute(mesh, name, array, domain):
     kinds = {"i": "INT", "b": "BOOLEAN", "f": "FLOAT"}
     kind = "FLOAT_VECTOR" if array.ndim == 2 else kinds[array.dtype.kind]
     mesh.attributes.new(name, kind, domain)
-    mesh_io.write_values(Values(mesh.attributes[name].data, *attributes.VALUES[kind]), array)
+    mesh_io.write_values(Values(mesh.attributes[name].data, *compatibility.ATTRIBUTES[kind]), array)
 
 
 def _piece_mesh(shape):

@@ -7,9 +7,10 @@ import bmesh
 import bpy
 import numpy as np
 
+from .. import compatibility
 from ..compatibility import Values
 from ..materials import material
-from ..scene import attributes, mesh_io
+from ..scene import mesh_io
 
 OURS = "holomorph"  # what the names of our custom properties begin with
 NAMED = "Holomorphic"  # and those of our texts
@@ -125,7 +126,7 @@ def texts():
 UV_MAP = "UV_MAP"  # kind of the layers that are not attributes: UV maps before Blender 3.5
 UV_VALUES = ("uv", np.float32, 2), ("pin_uv", bool), ("select", bool), ("select_edge", bool)
 FIXED = {"position", ".edge_verts", ".corner_vert", ".corner_edge"}  # Blender removes none of these
-KINDS = attributes.VALUES | {
+KINDS = compatibility.ATTRIBUTES | {
     "QUATERNION": ("value", np.float32, 4),
     "FLOAT4X4": ("value", np.float32, 16),
     "INT32_2D": ("value", np.int32, 2),

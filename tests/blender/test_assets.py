@@ -5,7 +5,7 @@ import pytest
 from loaded_addon import module
 from scenes import torus
 
-assets, patterns, material = module("materials.assets"), module("materials.patterns"), module("materials.material")
+nodes, patterns, material = module("materials.nodes"), module("materials.patterns"), module("materials.material")
 
 
 def marked():
@@ -14,7 +14,7 @@ def marked():
 
 def test_there_is_an_asset_of_each_texture():
     assert bpy.ops.object.holomorphic_assets() == {"FINISHED"}
-    assert {m[assets.ASSET] for m in marked()} == set(patterns.TEXTURES)
+    assert {m[nodes.ASSET] for m in marked()} == set(patterns.TEXTURES)
     for made in marked():
         (uv,) = [node for node in made.node_tree.nodes if node.type == "UVMAP"]
         assert uv.uv_map == "Holomorphic" and not material.is_ours(made)

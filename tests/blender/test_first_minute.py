@@ -10,7 +10,7 @@ from drawn_panel import Drawn, drawn
 from loaded_addon import module
 from scenes import mesh_io, mesh_object, run, select, shown_scale, sphere_arrays, stored_report, torus, uv
 
-coarse, lines, viewport = map(module, ("maps.coarse", "interface.lines", "materials.material"))
+reports, lines, viewport = map(module, ("results.stored", "interface.lines", "materials.material"))
 
 
 def spikes(subdivisions=4):
@@ -246,8 +246,10 @@ def test_a_place_has_the_name_of_its_vertex_group():
     (place,) = stored_report(obj)["coarse_places"]
     assert place["name"] == f"arm.{'XYZ'[spiked(obj, place)[0]]}"
     place["name"] = "arm.L"
-    assert coarse.sentence([place | {"times": 40.2}]) == "Arm.L is 40 times coarser than the rest"
-    assert coarse.sentence([place | {"times": 999}] * 3).startswith("Arm.L and 2 more places are over 200 times")
+    assert reports.coarse_sentence([place | {"times": 40.2}]) == "Arm.L is 40 times coarser than the rest"
+    assert reports.coarse_sentence([place | {"times": 999}] * 3).startswith(
+        "Arm.L and 2 more places are over 200 times"
+    )
 
 
 def test_faces_that_single_precision_loses_are_told():
@@ -293,7 +295,7 @@ def test_poles_are_off_the_boundary():
     fine[:] = polygons.vertices[polygons.corner_vertices][:, [axis - 1, axis - 2]]
     is_far = polygons.vertices[polygons.corner_vertices, axis] > 1.5
     octaves = module("native").load().distortion.measure(polygons, np.where(is_far[:, None], 0.01 * fine, fine)).density
-    found = coarse.places(obj, polygons, octaves)
+    found = reports.coarse_places(obj, polygons, octaves)
     assert found and not any(on_plane[place["vertex"]] for place in found)
 
 

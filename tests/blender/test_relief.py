@@ -7,7 +7,6 @@ from loaded_addon import module
 from scenes import mesh_io, select, tiled, torus
 
 geometry, relief, image_io = (module(name) for name in ("things.geometry", "things.relief", "scene.image_io"))
-heights = module("materials.heights")
 
 SIZE = 16
 UNITS = [("METRIC", 0.001, 0.05), ("NONE", 0.5, 0.05), ("METRIC", 2.0, 100.0)]  # mm for 5 % of a unit
@@ -128,7 +127,7 @@ def test_the_picture_is_that_of_the_material():
     links.new(texture.outputs["Color"], bump.inputs["Height"])
     obj.data.materials.clear()
     obj.data.materials.append(material)
-    assert heights.shown(material) == (image, 1)
+    assert relief.shown_heights(material) == (image, 1)
     assert is_closed(raise_on(obj, image=""))
 
 
@@ -136,9 +135,9 @@ def test_a_texture_of_ours_is_raised_as_often_as_it_is_shown():
     obj = torus()
     shown = dict(poles="COUNT", pole_count=0, checker=True, texture="SCALES")
     assert bpy.ops.uv.holomorphic_tile(tiles=12, **shown) == {"FINISHED"}
-    image, repeats = heights.shown(obj.active_material)
+    image, repeats = relief.shown_heights(obj.active_material)
     assert image.name == "Holomorph Scales Relief"
-    assert heights.weights(image) == heights.TWO_CHANNELS
+    assert relief.channel_weights(image) == relief.TWO_CHANNELS
     nodes = obj.active_material.node_tree.nodes
     nodes["Repeats"].outputs[0].default_value = 2
     twice, once = (raise_on(obj, image="", repeats=count) for count in (0, 1))
