@@ -1,17 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finds the native package ``holomorph``, or says in one sentence what is missing.
 
-Three arrangements are known: installed as a wheel (an extension, or pip), beside the add-on in
-``lib/<tag>`` (the zip for Blender before 4.2), and in a checkout under ``build/lib/<tag>``.
-Neither NumPy nor ``holomorph`` is imported at registration: the panel must draw without them.
+It is installed as a wheel (an extension, or pip), or lies in a folder that `beside` knows: in the zip for Blender
+before 4.2, or in a checkout. Neither NumPy nor ``holomorph`` is imported at registration: the panel must draw without
+them.
 """
 
 import functools
 import importlib
-import importlib.util
 import platform
 import sys
-from pathlib import Path
 
 NAME = "holomorph"
 # What the name of a zip says of the computer it is for, by what Python says of it.
@@ -57,50 +55,31 @@ def _right_zip_here():
     return right_zip(bpy.app.version, platform.system(), platform.machine(), python_tag())
 
 
-def _folders():
-    """Beside the add-on, in a checkout, and where something else of the name may come first on ``sys.path``."""
-    here, built = Path(__file__).resolve().parent, Path("lib", python_tag(), NAME)
-    entries = [
-        Path(entry) for entry in sys.path if Path(entry).is_absolute()
-    ]  # not the current folder: assets lie there
-    return [here / built, here.parent / "build" / built, *(entry / NAME for entry in entries)]
-
-
-def _import_from(folder):
-    """Imports the package in `folder` under its own name, leaving ``sys.path`` alone."""
-    spec = importlib.util.spec_from_file_location(
-        NAME, folder / "__init__.py", submodule_search_locations=[str(folder)]
-    )
-    module = importlib.util.module_from_spec(spec)
-    _drop_modules()
-    sys.modules[NAME] = module
-    try:
-        spec.loader.exec_module(module)
-    except ImportError:
-        _drop_modules()
-        raise
-    return module
-
-
-def _drop_modules():
-    for name in [n for n in sys.modules if n == NAME or n.startswith(NAME + ".")]:
-        del sys.modules[name]
-
-
 def _find():
     if __package__ == NAME:
         raise NativeMissing(f"The add-on's own folder must not be called {NAME!r}, the name of its native package")
+    other = ""
     try:
         found = importlib.import_module(NAME)
         if hasattr(found, "conformal_structure"):
             return found
+        other = f"; another module is called {NAME}: {getattr(found, '__path__', found)}"
     except ModuleNotFoundError as error:
         if error.name not in (NAME, f"{NAME}._native"):
             raise
-    for folder in _folders():
-        if (folder / "__init__.py").is_file() and any(folder.glob("_native*")):
-            return _import_from(folder)
-    raise NativeMissing(f"Holomorph's native part for {_looked_for()} is not installed: {_right_zip_here()}")
+    found = _beside()
+    if found is None:
+        raise NativeMissing(f"Holomorph's native part for {_looked_for()} is not installed: {_right_zip_here()}{other}")
+    return found
+
+
+def _beside():
+    """The package in a folder; None in an extension, which has it as a wheel."""
+    try:
+        from . import beside
+    except ImportError:
+        return None
+    return beside.find(NAME, python_tag())
 
 
 @functools.lru_cache(maxsize=1)

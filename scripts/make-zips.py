@@ -75,6 +75,7 @@ def write_zip(path, files):
 
 def write_extension(folder, version, platform, wheels):
     files = addon_files()
+    del files["beside.py"]  # the package is a wheel here
     manifest = files["blender_manifest.toml"].decode()
     files["blender_manifest.toml"] = with_wheels(manifest, platform, wheels).encode()
     files |= {f"wheels/{wheel.name}": uncompressed(wheel) for wheel in wheels}

@@ -293,6 +293,12 @@ def test_the_addon_asks_no_network_and_starts_no_program():
     assert {name: words for name, words in found.items() if words} == {"addon/solving/jobs.py": {"threading"}}
 
 
+def test_only_files_outside_the_extension_load_modules_by_hand():
+    """One imports the package of the zip for Blender 3.4, one starts the add-on as a command."""
+    using = {identify(path) for path in python_files(ADDON) if "sys.modules" in path.read_text(encoding="utf-8")}
+    assert using == {"addon/beside.py", "addon/headless.py"}
+
+
 def test_addon_imports_have_no_circle():
     done = set()
 
