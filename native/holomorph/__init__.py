@@ -51,7 +51,7 @@ from .forms.log_map import log_map
 from .maps.map import Map, form_map
 from .maps.mixed import Mixed
 from .forms.narrow_bounds import Refinement
-from .packing.placement import Frame, frame, place
+from .packing.layout import Frame, frame, place
 from .tiles.places import Places
 from .plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
 from .forms.pole_structure import PoleStructure

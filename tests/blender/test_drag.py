@@ -54,7 +54,7 @@ def stages(monkeypatch):
     noted, kind = [], native.load().forms.results.Tiler
 
     def noting(progress):
-        return lambda fraction, stage: (noted.append(stage), progress(fraction, stage))[1]
+        return lambda fraction, stage: (noted.append(stage), progress is None or progress(fraction, stage))[1]
 
     class Noted(kind):
         def __init__(self, surface, wanted, *, progress, **options):

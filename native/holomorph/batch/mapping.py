@@ -11,7 +11,7 @@ from ..maps.automatic_maps import automatic_maps
 from ..maps.automatic_structure import automatic_structure
 from ..maps.map import Map
 from ..maps.report import part_report, refused_report, skipped_report
-from ..mesh.given_vertices import on_part
+from ..mesh.origin import on_part
 
 
 @dataclass(eq=False)

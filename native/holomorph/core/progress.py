@@ -1,7 +1,11 @@
-"""Progress functions of parts of the work, and one that is looked at."""
+"""Progress functions of parts of the work, one that is looked at, and work on parts in several threads."""
 
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_EXCEPTION, Future, ThreadPoolExecutor, wait
+from typing import Any
 
+from .._native import Cancelled
 from .array_types import Progress
 
 
@@ -35,3 +39,92 @@ class Watch:
     def part(self, begin: float, end: float) -> Progress | None:
         """The progress function for a part of the work, as `scaled`."""
         return scaled(self, begin, end)
+
+
+LARGE = 20_000  # triangles from which on a part keeps all threads busy by itself
+TICK = 0.02  # seconds between two calls of the progress function
+
+
+def side_by_side(
+    work: Callable[[int, int | None, Progress | None], Any],
+    sizes: Sequence[int],
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> list[Any]:
+    """[work(k, threads, progress) for each part k]; of several errors the first one by k is raised.
+
+    Parts of at least `LARGE` triangles have all threads in turn. Then the others are done side by side, the largest
+    first, each with one thread. Results may depend neither on the order nor on the number of threads.
+
+    Parameters
+    ----------
+    work : asks the progress function that it is given whether to go on
+    sizes : (n,) triangles of the parts
+    threads : None for one per core
+    progress : called in the calling thread alone; returning False cancels
+    """
+    order = sorted(range(len(sizes)), key=lambda k: -sizes[k])
+    large = [k for k in order if sizes[k] >= LARGE or len(order) == 1]
+    small, total = order[len(large) :], sum(sizes) or 1
+    results, done = dict.fromkeys(order), 0.0
+    for k in large:
+        share = sizes[k] / total
+        results[k] = work(k, threads, scaled(progress, done, done + share))
+        done += share
+    if small:
+        crew = _Crew({k: sizes[k] / total for k in small}, done, progress)
+        results |= crew.results(work, threads or os.cpu_count() or 1)
+    return [results[k] for k in range(len(sizes))]
+
+
+class _Crew:
+    """The threads that do the small parts. They write how far they have come, and the calling thread reads it."""
+
+    def __init__(self, shares, done, progress):
+        self._shares, self._progress = shares, progress
+        self._before, self._done, self._stage = done, dict.fromkeys(shares, 0.0), ""
+        self._goes_on = True
+
+    def results(self, work, threads):
+        """{k: result}."""
+        with ThreadPoolExecutor(min(threads, len(self._shares))) as pool:
+            try:
+                made = {k: pool.submit(self._one, work, k) for k in self._shares}
+                if not self._watch(made.values()):
+                    raise Cancelled("cancelled by the progress function")
+            finally:
+                self._goes_on = False  # for those that still work when another has failed
+        failed = [k for k in sorted(made) if made[k].exception() is not None]
+        stopped = [k for k in failed if not isinstance(made[k].exception(), Cancelled)]
+        return {k: made[k].result() for k in [*stopped, *failed, *made]}
+
+    def _watch(self, pending: Sequence[Future]):
+        """Waits until all are done or one has failed; False if the progress function cancels."""
+        while pending:
+            finished, pending = wait(pending, TICK, FIRST_EXCEPTION)
+            if any(one.exception() is not None for one in finished):
+                break
+            if not self._is_wanted():
+                return False
+        return True
+
+    def _is_wanted(self):
+        if self._progress is None:
+            return True
+        done = self._before + sum(self._done.values())
+        return self._progress(min(done, 1.0), self._stage) is not False
+
+    def _one(self, work, k):
+        ask = self._asked_by(k)
+        if not ask(0.0, self._stage):
+            raise Cancelled("cancelled before a part was begun")
+        result = work(k, 1, ask)
+        ask(1.0, self._stage)
+        return result
+
+    def _asked_by(self, k):
+        def ask(fraction, stage):
+            self._done[k], self._stage = fraction * self._shares[k], stage
+            return self._goes_on
+
+        return ask

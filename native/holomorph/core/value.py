@@ -1,6 +1,7 @@
 """What all results have in common: they are values, which never change."""
 
 from abc import ABC, abstractmethod
+from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
@@ -62,3 +63,18 @@ def freeze(value: object) -> None:
     elif isinstance(value, (dict, tuple)):
         for entry in value.values() if isinstance(value, dict) else value:
             freeze(entry)
+
+
+class Solution:
+    """What the native core computed for a structure. A pickle has the call instead that computes the structure: it is
+    made where more is asked for than the pickle has, and gives the same bits."""
+
+    def __init__(self, native):
+        self.native, self.compute = native, None
+
+    @cached_property
+    def native(self):
+        return self.compute()._native
+
+    def __getstate__(self):
+        return {"compute": self.compute}

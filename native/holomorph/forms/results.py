@@ -6,6 +6,7 @@ import numbers
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from operator import attrgetter
 from typing import Self
 
 import numpy as np
@@ -16,8 +17,7 @@ from ..core import arrays
 from ..core.array_types import Integers, Progress, Reals
 from ..core.newest import Newest
 from ..core.progress import scaled
-from ..core.solution import Solution
-from ..core.value import Value, counted
+from ..core.value import Solution, Value, counted
 from ..mesh.checks import checked_evenness, real_number
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
@@ -61,9 +61,7 @@ class Structure(Value):
         vars(self).update({name: getattr(self, name) for name in ("description", "flip_count", "_is_exact")})
         return super().__getstate__()
 
-    @property
-    def _native(self):
-        return self._solution.native
+    _native = property(attrgetter("_solution.native"))
 
     def computed_by(self, compute: Callable[[], Structure]) -> Self:
         """Notes the call that computes the result, for pickles, and returns the result."""

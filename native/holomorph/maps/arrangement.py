@@ -21,8 +21,7 @@ from ..core.array_types import Reals
 from ..core.value import quoted
 from ..mesh.checks import real_number, whole_number
 from ..mesh.surface import Surface
-from ..packing.layout import pack, rows
-from ..packing.placement import Frame, frame, place
+from ..packing.layout import Frame, frame, pack, place, rows
 from .automatic_structure import AnyStructure
 from .map import Map
 

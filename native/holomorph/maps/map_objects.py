@@ -11,8 +11,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from ..core.array_types import Progress
-from ..core.progress import scaled
-from ..core.side_by_side import side_by_side
+from ..core.progress import scaled, side_by_side
 from ..mesh.copies import Copy, copies
 from .map import Map
 from .map_search import MapSearch

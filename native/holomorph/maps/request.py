@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..core.array_types import Complexes, Reals
 from ..core.arrays import integer
-from ..mesh.given_vertices import on_part
+from ..mesh.origin import on_part
 from ..mesh.surface import Surface
 from ..tiling.tiling import Poles
 from .automatic_structure import AnyStructure

@@ -223,7 +223,7 @@ class Surface(Value):
         self.require_connected()
         return self._native.euler_characteristic()
 
-    @property
+    @cached_property
     def boundary_count(self) -> int:
         """Number of boundary loops."""
         return self._topology.boundary_count
@@ -233,7 +233,7 @@ class Surface(Value):
         """Sum of the triangles' areas, in the square of the positions' unit."""
         return self._native.area()
 
-    @property
+    @cached_property
     def genus(self) -> int:
         """Number of handles."""
         return self._topology.genus

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._native import TopologyError
-from ..core.solution import Solution
+from ..core.value import Solution
 from ..forms.results import Structure
 from ..forms.truncated import TruncatedStructure
 from ..mesh.checks import check_type, own_vertices

@@ -8,7 +8,7 @@ import holomorph
 import numpy as np
 import pytest
 from holomorph import Cancelled, Surface, automatic_maps
-from holomorph.core.side_by_side import LARGE, side_by_side
+from holomorph.core.progress import LARGE, side_by_side
 from holomorph.mesh.copies import copies
 from solved import surface_of
 
