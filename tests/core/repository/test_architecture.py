@@ -320,7 +320,19 @@ def test_solving_knows_nothing_of_blender():
 
 
 def loaded_at_registration():
-    loaded, waiting = set(), [ADDON / "__init__.py"]
+    return imported_at_the_top(ADDON / "__init__.py")
+
+
+def test_registration_loads_neither_numpy_nor_the_core():
+    """Blender starts, and the panel says what is missing, without them."""
+    loaded = loaded_at_registration()
+    assert len(loaded) > len(ADDON_BELOW)
+    assert not [identify(path) for path in loaded if {"numpy", "holomorph"} & set(packages_at_top(path))]
+
+
+def imported_at_the_top(*paths):
+    """These files and all that they load, one through the other."""
+    loaded, waiting = set(), list(paths)
     while waiting:
         path = waiting.pop()
         if path not in loaded:
@@ -329,11 +341,14 @@ def loaded_at_registration():
     return loaded
 
 
-def test_registration_loads_neither_numpy_nor_the_core():
-    """Blender starts, and the panel says what is missing, without them."""
-    loaded = loaded_at_registration()
-    assert len(loaded) > len(ADDON_BELOW)
-    assert not [identify(path) for path in loaded if {"numpy", "holomorph"} & set(packages_at_top(path))]
+def test_what_needs_no_package_does_not_load_it():
+    """Where the native part is missing, maps are removed, materials brought back and meshes repaired all the same."""
+    loading = {
+        path for path in python_files(ADDON) if re.search(r"^\w+ = module\(", path.read_text("utf-8"), re.MULTILINE)
+    }
+    assert loading == {ADDON / "solving" / "jobs.py"}
+    names = ("results/restore", "results/repair", "materials/nodes", "materials/material", "writing/transaction")
+    assert not loading & imported_at_the_top(*(ADDON / f"{name}.py" for name in names))
 
 
 def test_others_import_at_the_top():
