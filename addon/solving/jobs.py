@@ -62,7 +62,7 @@ class Task:
     polygons: object
     chosen: Choices = Choices()
 
-    @property
+    @cached_property
     def key(self):
         """Equal for tasks with the same result: of the same geometry and topology, with the same choices."""
         digest = hashlib.sha256()
