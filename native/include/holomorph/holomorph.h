@@ -6,7 +6,7 @@
 //   const auto surface = mesh::make_surface(mesh::read("kitten.obj"), execution);
 //   const auto part = std::make_shared<mesh::Surface>(mesh::component(surface, 0, execution).surface);
 //   auto found = structure::conformal_structure(part, options, execution);  // e.g. its period matrix
-//   const auto forms = structure::uv_forms(found, options);
+//   const auto forms = structure::primal_forms(found, options);
 //   const auto c = structure::balanced_coefficients(found, *forms, execution);
 //   const auto uv = structure::uv_map(found, *forms, c, execution);  // #corners x 2
 //

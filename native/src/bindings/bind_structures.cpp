@@ -10,7 +10,6 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/records.h"
-#include "bindings/structure_with_forms.h"
 #include "conformal/certain_bounds.h"
 #include "multiresolution/paper_forms.h"
 #include "plane/disk_map.h"
@@ -202,7 +201,7 @@ StructurePointer make(const Options& options, int threads, const py::object& pro
   made->options = options;
   made->threads = threads;
   made->value = compute(options, execution);
-  made->forms = structure::uv_forms(made->value, made->options);
+  made->forms = structure::primal_forms(made->value, made->options);
   return made;
 }
 

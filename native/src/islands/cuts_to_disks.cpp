@@ -93,7 +93,7 @@ std::vector<char> cuts_to_disks(const mesh::Surface& surface, Execution& executi
   std::vector<double> length(surface.polygon_edge_count, 0);
   for (const int e : crossed) length[e] = loop_length(e);
   std::stable_sort(crossed.begin(), crossed.end(), [&](int a, int b) { return length[a] > length[b]; });
-  mesh::JoinedSets tree(surface.polygons.face_offsets.size());
+  mesh::UnionFind tree(surface.polygons.face_offsets.size());
   for (const int e : crossed) {
     if (tree.lowest(faces[e][0]) != tree.lowest(faces[e][1])) {
       tree.join(faces[e][0], faces[e][1]);

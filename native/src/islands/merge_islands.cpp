@@ -5,7 +5,7 @@
 #include <complex>
 #include <numeric>
 
-#include "islands/flat_triangles.h"
+#include "islands/split_overlaps.h"
 
 namespace holomorph::islands {
 namespace {

@@ -60,7 +60,7 @@ class Parts {
   bool are_apart(int a, int b) { return sets_.lowest(a) != sets_.lowest(b); }
 
  private:
-  JoinedSets sets_;
+  UnionFind sets_;
   std::vector<int> owner_;  // of the lowest polygon of each part, -1 where there are slivers alone
 };
 

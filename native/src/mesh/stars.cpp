@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "base/errors.h"
@@ -9,6 +10,7 @@
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {
+
 namespace {
 
 // Angle at the apex of the triangle on side h.
@@ -209,6 +211,29 @@ void flip_diagonals_away(Surface& surface, const std::vector<int>& vertices, con
       }
     }
   }
+}
+
+std::vector<int> vertices_around(const HalfEdges& half_edges, int vertex, std::size_t most) {
+  std::vector<int> queue{vertex};
+  std::set<int> seen{vertex};
+  for (std::size_t at = 0; at < queue.size() && queue.size() < most; ++at) {
+    const HalfedgeHandle first = half_edges.halfedge_handle(VertexHandle(queue[at]));
+    HalfedgeHandle h = first;
+    do {
+      const int v = to_vertex(half_edges, h);
+      if (seen.insert(v).second) queue.push_back(v);
+      h = next(half_edges, opposite(h));
+    } while (h != first);
+  }
+  return queue;
+}
+
+bool are_apart(const std::vector<int>& a, const std::vector<int>& b) {
+  for (auto x = a.begin(), y = b.begin(); x != a.end() && y != b.end();) {
+    if (*x == *y) return false;
+    ++(*x < *y ? x : y);
+  }
+  return true;
 }
 
 }  // namespace holomorph::mesh

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -55,5 +56,11 @@ void mark_star(const Surface& surface, const HalfEdges& half_edges, int vertex, 
 /// spoke is an edge of a polygon. Edges keep their indices.
 /// @throws TopologyError if two of the vertices are corners of one polygon
 void flip_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& labels = {});
+
+/// Returns about `most` vertices around one, itself among them, the fewest edges away first. @pre the surface is closed
+std::vector<int> vertices_around(const HalfEdges& half_edges, int vertex, std::size_t most);
+
+/// Whether two ascending lists have nothing in common.
+bool are_apart(const std::vector<int>& a, const std::vector<int>& b);
 
 }  // namespace holomorph::mesh

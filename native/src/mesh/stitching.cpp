@@ -252,7 +252,7 @@ class Joiner {
   const Polygons& mesh_;
   const std::vector<int>& label_;
   const std::vector<int> next_, face_of_;
-  JoinedSets fans_;                                     // sets of corners
+  UnionFind fans_;                                      // sets of corners
   std::vector<char> reversed_;                          // #F
   std::vector<int> edge_of_;                            // #C index into `many`, -1 elsewhere
   std::unordered_map<int, std::vector<int>> sides_at_;  // sides of `many`, by the fan at one of their ends

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <optional>
 #include <span>
 #include <utility>
@@ -11,6 +12,11 @@
 #include "mesh/surface.h"
 
 namespace holomorph::mesh {
+
+/// Sorts the points' indices along a Z-order curve through their bounding cube (Morton 1966), so that near points are
+/// near in the order. Points in one cell, of 2^-21 of the cube's side, keep the order of their numbers.
+/// Cost: linear.
+std::vector<int> spatial_order(const std::vector<std::array<double, 3>>& points);
 
 class TriangleTree {
  public:

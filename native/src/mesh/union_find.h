@@ -10,9 +10,9 @@
 namespace holomorph::mesh {
 
 /// Elements 0 .. count - 1, each at first a set of its own. A set is known by its lowest element.
-class JoinedSets {
+class UnionFind {
  public:
-  explicit JoinedSets(std::size_t count) : lower_(count) { std::iota(lower_.begin(), lower_.end(), 0); }
+  explicit UnionFind(std::size_t count) : lower_(count) { std::iota(lower_.begin(), lower_.end(), 0); }
 
   int lowest(int i) {
     while (lower_[i] != i) i = lower_[i] = lower_[lower_[i]];

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "base/errors.h"
-#include "base/finite.h"
 #include "mesh/half_edges.h"
+#include "uv/uv_map.h"
 
 namespace holomorph::plane {
 namespace {

@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "base/finite.h"
 #include "forms/laplacian.h"
 #include "linear/dense.h"
 #include "mesh/components.h"
 #include "mesh/delaunay.h"
 #include "plane/dirichlet_problem.h"
+#include "uv/uv_map.h"
 
 namespace holomorph::plane {
 namespace {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "base/finite.h"
 #include "conformal/certain_bounds.h"
 #include "mesh/components.h"
 #include "mesh/delaunay.h"
@@ -14,6 +13,7 @@
 #include "plane/dirichlet_problem.h"
 #include "plane/rectangle_corners.h"
 #include "structure/certified_forms.h"
+#include "uv/uv_map.h"
 
 namespace holomorph::plane {
 namespace {

@@ -22,7 +22,7 @@ mesh::Discretisation on_own_triangles(const mesh::Surface& surface, Execution& e
   return mesh::on_input(surface, mesh::half_edges(surface, execution), execution);
 }
 
-class KeptForms final : public UvForms {
+class KeptForms final : public PrimalForms {
  public:
   KeptForms(const Structure& structure, const Options& options)
       : structure_(structure), options_(options), functions_(structure.harmonic.functions) {
@@ -93,7 +93,7 @@ class KeptForms final : public UvForms {
 };
 
 // A few forms at a time, of a closed surface.
-class StreamedForms final : public UvForms {
+class StreamedForms final : public PrimalForms {
  public:
   StreamedForms(const Structure& structure, const Options& options) : structure_(structure), options_(options) {}
 
@@ -150,12 +150,12 @@ class StreamedForms final : public UvForms {
 
 }  // namespace
 
-std::unique_ptr<UvForms> uv_forms(const Structure& structure, const Options& options) {
+std::unique_ptr<PrimalForms> primal_forms(const Structure& structure, const Options& options) {
   if (structure.record.memory.keep_forms) return std::make_unique<KeptForms>(structure, options);
   return std::make_unique<StreamedForms>(structure, options);
 }
 
-Eigen::VectorXcd balanced_coefficients(const Structure& structure, UvForms& forms, Execution& execution) {
+Eigen::VectorXcd balanced_coefficients(const Structure& structure, PrimalForms& forms, Execution& execution) {
   const auto& basis = structure.differentials;
   if (structure.topology.families.poles > 0) return Eigen::VectorXcd::Unit(basis.cols(), 0);
   // A single form leaves nothing to choose, and samples may cost a solve.
@@ -166,7 +166,7 @@ Eigen::VectorXcd balanced_coefficients(const Structure& structure, UvForms& form
   return c;
 }
 
-uv::UvArray uv_map(const Structure& structure, UvForms& forms, const Eigen::VectorXcd& c, Execution& execution) {
+uv::UvArray uv_map(const Structure& structure, PrimalForms& forms, const Eigen::VectorXcd& c, Execution& execution) {
   const Eigen::VectorXcd p = structure.differentials * c;
   uv::UvArray corners(structure.surface->polygons.corner_vertices.size(), 2);
   write_uv_map(structure, forms.function(p, execution), p, corners, execution.workers());
@@ -180,7 +180,7 @@ BalancedMap balanced_map(std::shared_ptr<const mesh::Surface> surface, const Opt
                             : pole_structure(std::move(surface), Poles{}, options, execution),
                   {},
                   {}};
-  const auto forms = uv_forms(map.structure, options);
+  const auto forms = primal_forms(map.structure, options);
   map.coefficients = balanced_coefficients(map.structure, *forms, execution);
   map.uv = uv_map(map.structure, *forms, map.coefficients, execution);
   return map;

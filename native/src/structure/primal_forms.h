@@ -14,9 +14,9 @@ namespace holomorph::structure {
 /// classes with the least conformal energy on the surface's own triangles. Where the intrinsic functions come within
 /// 1e-9 of that (relative; their energy on the surface's triangles bounds the gain from above), and where no edge was
 /// flipped, they are taken as they are. Each call may throw SolverError and Cancelled, and may be made again.
-class UvForms {
+class PrimalForms {
  public:
-  virtual ~UvForms() = default;
+  virtual ~PrimalForms() = default;
 
   /// Prepares what all calls below need. Optional: they do so themselves.
   virtual void prepare(Execution& execution) = 0;
@@ -36,18 +36,18 @@ class UvForms {
 /// The UV forms of a structure, whose functions are shared. Where its plan keeps no forms, each call solves for what it
 /// is asked for, and keeps the factor or hierarchy for the next. Samples are those of the intrinsic triangulation.
 /// @param structure,options outlive the result
-std::unique_ptr<UvForms> uv_forms(const Structure& structure, const Options& options);
+std::unique_ptr<PrimalForms> primal_forms(const Structure& structure, const Options& options);
 
 /// Returns one coefficient for each differential. Without poles: those of uv::balanced_coefficients, real on a surface
 /// with boundary, scaled so that the UV area of the surface is 1. With poles: theta_0 alone, so that its residues stay.
 /// @throws SolverError, Cancelled
-Eigen::VectorXcd balanced_coefficients(const Structure& structure, UvForms& forms, Execution& execution);
+Eigen::VectorXcd balanced_coefficients(const Structure& structure, PrimalForms& forms, Execution& execution);
 
 /// Computes the UVs of sum_j c_j theta_j, #C x 2 in the order of polygons.corner_vertices.
 /// @param c one coefficient of each column of `structure.differentials`; real on a surface with boundary, so that
 /// boundaries stay straight
 /// @throws SolverError, Cancelled
-uv::UvArray uv_map(const Structure& structure, UvForms& forms, const Eigen::VectorXcd& c, Execution& execution);
+uv::UvArray uv_map(const Structure& structure, PrimalForms& forms, const Eigen::VectorXcd& c, Execution& execution);
 
 struct BalancedMap {
   Structure structure;

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "base/errors.h"
-#include "base/finite.h"
 #include "forms/closed_forms.h"
 #include "forms/gram_matrices.h"
+#include "uv/uv_map.h"
 #include "uv/zeros.h"
 
 namespace holomorph::structure {

@@ -34,7 +34,7 @@ struct Topology {
   Families families;
   topology::IntegerForms classes;  ///< classes of the whole basis, on the edges of the surface
   std::vector<int> seams;          ///< edges of the cut graph, and of the spokes of poles
-  uv::CornerSheets sheets;         ///< integer potentials of the classes
+  uv::CoveringSheets sheets;       ///< integer potentials of the classes
 };
 
 /// Finds fundamental domain, homology basis, dual classes, pairing and cut.

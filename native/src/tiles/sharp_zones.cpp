@@ -17,7 +17,7 @@ bool differ(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
 
 std::vector<int> corner_fans(const mesh::Surface& surface, const std::vector<char>& is_sharp) {
   const int count = static_cast<int>(surface.triangles.size());
-  mesh::JoinedSets fans(3 * surface.triangles.size());
+  mesh::UnionFind fans(3 * surface.triangles.size());
   std::vector<int> first(surface.edges.size(), -1);  // 3 t + i of the first side at each edge
   for (int s = 0; s < 3 * count; ++s) {
     const auto corner = [&](int of, int step) { return of / 3 * 3 + (of % 3 + step) % 3; };

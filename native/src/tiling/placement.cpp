@@ -1,7 +1,7 @@
 #include "tiling/placement.h"
 
 #include "tiling/poles/pole_placement.h"
-#include "uv/vector_fields.h"
+#include "uv/balance.h"
 
 namespace holomorph::tiling {
 namespace {

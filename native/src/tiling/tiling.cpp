@@ -8,7 +8,7 @@
 #include "base/errors.h"
 #include "evening/evening.h"
 #include "tiling/rounding/rounding_problem.h"
-#include "uv/vector_fields.h"
+#include "uv/balance.h"
 
 namespace holomorph::tiling {
 namespace {

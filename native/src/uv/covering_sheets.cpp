@@ -103,9 +103,9 @@ Array<int> sheets_at_starts(const mesh::HalfEdges& half_edges, const Walk& walk,
   return at_start;
 }
 
-CornerSheets sheets_of_corners(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
-                               const Array<int>& at_start, SheetTable&& table) {
-  CornerSheets result;
+CoveringSheets sheets_of_corners(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
+                                 const Array<int>& at_start, SheetTable&& table) {
+  CoveringSheets result;
   result.corner_sheet.resize(surface.polygons.corner_vertices.size());
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
     HalfedgeHandle h = half_edges.halfedge_handle(mesh::FaceHandle(t));
@@ -118,16 +118,17 @@ CornerSheets sheets_of_corners(const mesh::Surface& surface, const mesh::HalfEdg
 
 }  // namespace
 
-CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
-                           const topology::FundamentalDomain& domain, const IntegerForms& classes,
-                           Execution& execution) {
+CoveringSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
+                             const topology::FundamentalDomain& domain, const IntegerForms& classes,
+                             Execution& execution) {
   SheetTable table(classes);
   const auto at_start = sheets_at_starts(half_edges, {domain.face_order, domain.to_parent_face}, table, execution);
   return sheets_of_corners(surface, half_edges, at_start, std::move(table));
 }
 
-CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const std::vector<int>& cut,
-                           const IntegerForms& classes, Execution& execution, const std::vector<int>& labels) {
+CoveringSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
+                             const std::vector<int>& cut, const IntegerForms& classes, Execution& execution,
+                             const std::vector<int>& labels) {
   std::vector<char> is_cut(surface.edges.size(), 0);
   for (const int e : cut) is_cut[e] = 1;
   SheetTable table(classes);

@@ -4,8 +4,8 @@
 #include <complex>
 #include <numeric>
 
-#include "mesh/spatial_order.h"
 #include "mesh/triangle_geometry.h"
+#include "mesh/triangle_tree.h"
 #include "uv/minimise.h"
 
 namespace holomorph::uv {
@@ -156,10 +156,10 @@ VectorXd as_unknowns(const VectorXcd& c, Coefficients kind) {
   return x;
 }
 
-LogVariance::LogVariance(const SampledParts& parts, Coefficients kind)
+DensityObjective::DensityObjective(const SampledParts& parts, Coefficients kind)
     : M_(on_unknowns(parts.M, kind)), N_(on_unknowns(parts.N, kind)) {}
 
-double LogVariance::operator()(const VectorXd& x, VectorXd& gradient) const {
+double DensityObjective::operator()(const VectorXd& x, VectorXd& gradient) const {
   const VectorXd A = M_ * x;
   const Eigen::ArrayXd q = squares(A);
   const double mean = q.mean(), count = static_cast<double>(q.size());
@@ -189,7 +189,7 @@ double LogVariance::operator()(const VectorXd& x, VectorXd& gradient) const {
 double descend(const SampledParts& parts, Coefficients kind, VectorXd& x, const std::vector<double>& floors,
                int most_steps, const std::function<void()>& tick) {
   double variance = INFINITY;
-  LogVariance objective(parts, kind);
+  DensityObjective objective(parts, kind);
   for (const double floor : floors) {
     objective.set_floor(floor);
     variance = minimise(

@@ -45,9 +45,9 @@ Eigen::VectorXd as_unknowns(const Eigen::VectorXcd& c, Coefficients kind);
 /// Variance over the samples of log(q / mean q + floor), q = |A|^2, plus 3 times the mean of
 /// r = |B|^2 / (|A|^2 + |B|^2 + floor mean q); and the gradient by (Re c, Im c). The second term is nearly 0 for a good
 /// map. Without it |A| may be even where B, the discretisation error, is larger and flips the map.
-class LogVariance {
+class DensityObjective {
  public:
-  LogVariance(const SampledParts& parts, Coefficients kind);
+  DensityObjective(const SampledParts& parts, Coefficients kind);
   void set_floor(double floor) { floor_ = floor; }
   double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const;
 

@@ -32,19 +32,19 @@ struct Extent {
 
 }  // namespace
 
-UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const forms::RowMajorMatrix& functions,
+UvArray uv_map(const mesh::Surface& surface, const CoveringSheets& sheets, const forms::RowMajorMatrix& functions,
                const Eigen::VectorXcd& p, Workers& workers) {
   return uv_map(surface, sheets, UvArray(functions * real_and_imaginary(p)), p, workers);
 }
 
-UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
+UvArray uv_map(const mesh::Surface& surface, const CoveringSheets& sheets, const UvArray& at_vertex,
                const Eigen::VectorXcd& p, Workers& workers) {
   UvArray uv(static_cast<Eigen::Index>(surface.polygons.corner_vertices.size()), 2);
   write_uv_map(surface, sheets, at_vertex, p, uv, workers);
   return uv;
 }
 
-void write_uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
+void write_uv_map(const mesh::Surface& surface, const CoveringSheets& sheets, const UvArray& at_vertex,
                   const Eigen::VectorXcd& p, Eigen::Ref<UvArray> uv, Workers& workers) {
   const UvArray coefficients = real_and_imaginary(p);
   // One translation for each sheet; there are few sheets.

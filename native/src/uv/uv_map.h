@@ -3,11 +3,29 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <string>
 #include <vector>
 
+#include "base/chunks.h"
+#include "base/errors.h"
 #include "base/workers.h"
 #include "forms/closed_forms.h"
 #include "uv/covering_sheets.h"
+
+namespace holomorph {
+
+/// @param rows real or complex, @param what the rows are of, e.g. "corner"
+/// @throws SolverError naming the first row that is not finite. Cost: linear, in parallel.
+template <class Derived>
+void require_finite(const Eigen::DenseBase<Derived>& rows, const char* what, Workers& workers) {
+  const int count = static_cast<int>(rows.rows());
+  const int bad = first_row(workers, count, [&](int i) { return !rows.row(i).allFinite(); });
+  if (bad == count) return;
+  throw SolverError(std::string("the map has no finite coordinates at ") + what + " " + std::to_string(bad) +
+                    ": the mesh is too degenerate there");
+}
+
+}  // namespace holomorph
 
 namespace holomorph::uv {
 
@@ -17,14 +35,14 @@ using UvArray = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 /// each
 /// cut the UV jump is a constant translation, an integer combination of the p_k.
 /// @param functions #V x 2g, the f_k. @return #C x 2
-UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const forms::RowMajorMatrix& functions,
+UvArray uv_map(const mesh::Surface& surface, const CoveringSheets& sheets, const forms::RowMajorMatrix& functions,
                const Eigen::VectorXcd& p, Workers& workers);
 
 /// Computes UV(corner) = at_vertex(vertex) + sum_k p_k P_k(corner), from any function at the vertices, #V x 2.
-UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
+UvArray uv_map(const mesh::Surface& surface, const CoveringSheets& sheets, const UvArray& at_vertex,
                const Eigen::VectorXcd& p, Workers& workers);
 /// Writes the same into given memory, #C x 2.
-void write_uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
+void write_uv_map(const mesh::Surface& surface, const CoveringSheets& sheets, const UvArray& at_vertex,
                   const Eigen::VectorXcd& p, Eigen::Ref<UvArray> uv, Workers& workers);
 
 struct Frame {

@@ -176,12 +176,12 @@ TEST(SurfaceWalk, ComesBack) {
   }
 }
 
-TEST(Exposure, IsAllOutsideAndLessInsideOfARing) {
+TEST(AmbientOcclusion, IsAllOutsideAndLessInsideOfARing) {
   const auto surface = wavy_torus(60, 40);
   std::vector<int> vertices;
   for (int v = 0; v < surface->vertex_count; v += 7) vertices.push_back(v);
   Execution one(1), two(2);
-  Exposure exposure(*surface), other(*surface);
+  AmbientOcclusion exposure(*surface), other(*surface);
   exposure.prepare(vertices, one.workers());
   other.prepare(vertices, two.workers());
   double inside = 0, outside = 1;

@@ -5,7 +5,7 @@
 
 #include "base/errors.h"
 #include "mesh/make_surface.h"
-#include "mesh/spatial_order.h"
+#include "mesh/triangle_tree.h"
 #include "progressive/refinement.h"
 #include "progressive/simplify.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "mesh/triangle_geometry.h"
-#include "uv/vector_fields.h"
+#include "uv/balance.h"
 
 namespace holomorph::tiling {
 namespace {

@@ -6,8 +6,8 @@
 #include <unordered_map>
 
 #include "linear/dense.h"
+#include "mesh/stars.h"
 #include "mesh/surface_walk.h"
-#include "tiling/inversion/neighbourhoods.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -151,7 +151,7 @@ class Moving {
   void hold(std::size_t i) {
     const std::vector<int> others = corners_but(i, i);
     for (const int v : mesh::nearest_corners(basis_.surface(), points_[i])) {
-      if (!basis_.is_place(v, options_.allowed) || !are_apart(corners_around(v), others)) continue;
+      if (!basis_.is_place(v, options_.allowed) || !mesh::are_apart(corners_around(v), others)) continue;
       poles_.vertices[i] = v;
       break;
     }
@@ -170,7 +170,7 @@ class Moving {
   std::vector<Neighbour> around(std::size_t i) {
     std::vector<Neighbour> list;
     const bool stays = !options_.held.empty() && options_.held[i];
-    for (const int v : vertices_around(basis_.half_edges(), poles_.vertices[i], stays ? 0 : kAround)) {
+    for (const int v : mesh::vertices_around(basis_.half_edges(), poles_.vertices[i], stays ? 0 : kAround)) {
       if (!basis_.is_place(v, options_.allowed)) continue;
       VectorXd part = nearest_representative(inversion_.abel_jacobi.at(v), poles_.parts[i]);
       const VectorXcd effect = effect_of(i, part);
@@ -202,11 +202,11 @@ class Moving {
     double least = now.squaredNorm() * (1 - kGain);
     const Neighbour *first = nullptr, *second = nullptr;
     for (const Neighbour& a : near[i]) {
-      if (!are_apart(a.corners, others)) continue;
+      if (!mesh::are_apart(a.corners, others)) continue;
       const VectorXcd with = rest + a.effect;
       for (const Neighbour& b : near[j]) {
         const double size = (with + b.effect).squaredNorm();
-        if (size < least && are_apart(b.corners, others) && are_apart(a.corners, b.corners)) {
+        if (size < least && mesh::are_apart(b.corners, others) && mesh::are_apart(a.corners, b.corners)) {
           least = size;
           first = &a;
           second = &b;

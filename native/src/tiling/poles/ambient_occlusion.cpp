@@ -23,7 +23,7 @@ Vector3d direction(int i) {
 
 }  // namespace
 
-Exposure::Exposure(const mesh::Surface& surface)
+AmbientOcclusion::AmbientOcclusion(const mesh::Surface& surface)
     : surface_(surface), tree_(surface), normals_(surface.vertex_count, Vector3d::Zero()) {
   double area = 0;
   for (const mesh::Triple& t : surface.triangles) {
@@ -37,7 +37,7 @@ Exposure::Exposure(const mesh::Surface& surface)
   begin_ = kBegin * std::sqrt(area);
 }
 
-void Exposure::prepare(const std::vector<int>& vertices, Workers& workers) {
+void AmbientOcclusion::prepare(const std::vector<int>& vertices, Workers& workers) {
   std::vector<int> missing;
   for (const int v : vertices) {
     if (known_.emplace(v, 0).second) missing.push_back(v);
@@ -47,7 +47,7 @@ void Exposure::prepare(const std::vector<int>& vertices, Workers& workers) {
   for (std::size_t i = 0; i < missing.size(); ++i) known_[missing[i]] = values[i];
 }
 
-double Exposure::found(int vertex) const {
+double AmbientOcclusion::found(int vertex) const {
   const Vector3d& normal = normals_[vertex];
   const Vector3d start = Vector3d(surface_.polygons.vertices[vertex].data()) + begin_ * normal;
   double all = 0, open = 0;

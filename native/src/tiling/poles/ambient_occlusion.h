@@ -12,10 +12,10 @@ namespace holomorph::tiling {
 /// The fraction of directions above a vertex, weighted by their cosine with the normal, that meet no triangle of the
 /// surface. 1 on a convex surface, small in an armpit. The rays are fixed, so it is deterministic. Rotating the surface
 /// changes it by some 0.05.
-class Exposure {
+class AmbientOcclusion {
  public:
   /// @pre the surface has positions and outlives this
-  explicit Exposure(const mesh::Surface& surface);
+  explicit AmbientOcclusion(const mesh::Surface& surface);
 
   /// Computes the exposure of these vertices. Cost: some hundred rays for each new one
   void prepare(const std::vector<int>& vertices, Workers& workers);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tiling/inversion/neighbourhoods.h"
+#include "mesh/stars.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -41,7 +41,7 @@ int best_place(const PoleBasis& basis, const std::vector<char>& allowed, const s
   double least = std::numeric_limits<double>::infinity();
   for (const int v : list) {
     if (!(distance(v) < least) || !basis.is_place(v, allowed) ||
-        !are_apart(mesh::corners_around(basis.surface(), basis.half_edges(), v), corners))
+        !mesh::are_apart(mesh::corners_around(basis.surface(), basis.half_edges(), v), corners))
       continue;
     best = v;
     least = distance(v);
@@ -78,7 +78,7 @@ Mirror mirror_of_poles(const Mirror& on_level, const std::vector<int>& level_pol
     // some are equally near.
     if (size == 1) {
       poles[i] = best_place(
-          basis, allowed, vertices_around(basis.half_edges(), poles[i], kAround), poles, poles[i], [&](int v) {
+          basis, allowed, mesh::vertices_around(basis.half_edges(), poles[i], kAround), poles, poles[i], [&](int v) {
             return std::abs(plane.height(position(surface, v))) + kNear * (position(surface, v) - at).norm();
           });
       result.image[poles[i]] = poles[i];
@@ -92,7 +92,7 @@ Mirror mirror_of_poles(const Mirror& on_level, const std::vector<int>& level_pol
       for (int v = 1; v < surface.vertex_count; ++v) {
         if (distance(v) < distance(nearest)) nearest = v;
       }
-      std::vector<int> list = vertices_around(basis.half_edges(), nearest, 1);
+      std::vector<int> list = mesh::vertices_around(basis.half_edges(), nearest, 1);
       list.push_back(poles[i + 1]);
       poles[i + 1] = best_place(basis, allowed, list, poles, poles[i + 1], distance);
       result.image[poles[i]] = poles[i + 1];

@@ -5,9 +5,9 @@
 #include <set>
 
 #include "base/errors.h"
+#include "mesh/stars.h"
 #include "mesh/surface_walk.h"
 #include "structure/pole_choice.h"
-#include "tiling/inversion/neighbourhoods.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -178,8 +178,8 @@ bool PoleCandidates::is_apart_from_image(int vertex, const std::vector<char>& ta
   const Eigen::Vector3d p(surface.polygons.vertices[vertex].data()), q(surface.polygons.vertices[image].data());
   return (p - q).norm() >= kApart * std::sqrt(basis_.area()) &&
          mesh::has_free_star(surface, basis_.half_edges(), image, taken) &&
-         are_apart(mesh::corners_around(surface, basis_.half_edges(), vertex),
-                   mesh::corners_around(surface, basis_.half_edges(), image));
+         mesh::are_apart(mesh::corners_around(surface, basis_.half_edges(), vertex),
+                         mesh::corners_around(surface, basis_.half_edges(), image));
 }
 
 const std::vector<double>& PoleCandidates::distances(int vertex) {

@@ -17,13 +17,13 @@ using Eigen::ArrayXf;
 using Eigen::MatrixXf;
 using Eigen::VectorXf;
 
-// How uneven the density of a form is, for a search that asks often: uv::LogVariance in single precision.
+// How uneven the density of a form is, for a search that asks often: uv::DensityObjective in single precision.
 
 // Variance of log(q / mean q + floor), q = |A|^2, to some 1e-6 of it.
-class QuickVariance {
+class DensityObjectiveF32 {
  public:
   /// @param parts #samples x #unknowns: A are their combinations
-  QuickVariance(const Eigen::MatrixXcf& parts, uv::Coefficients kind);
+  DensityObjectiveF32(const Eigen::MatrixXcf& parts, uv::Coefficients kind);
 
   void set_floor(double floor) { floor_ = static_cast<float>(floor); }
   double operator()(const VectorXd& x, VectorXd& gradient) const;
@@ -53,13 +53,13 @@ ArrayXf squares(const VectorXf& A) {
   return A.head(count).array().square() + A.tail(count).array().square();
 }
 
-QuickVariance::QuickVariance(const Eigen::MatrixXcf& parts, uv::Coefficients kind)
+DensityObjectiveF32::DensityObjectiveF32(const Eigen::MatrixXcf& parts, uv::Coefficients kind)
     : M_(2 * parts.rows(), (kind == uv::Coefficients::real ? 1 : 2) * parts.cols()) {
   M_.leftCols(parts.cols()) << parts.real(), parts.imag();
   if (kind == uv::Coefficients::complex) M_.rightCols(parts.cols()) << -parts.imag(), parts.real();
 }
 
-double QuickVariance::operator()(const VectorXd& x, VectorXd& gradient) const {
+double DensityObjectiveF32::operator()(const VectorXd& x, VectorXd& gradient) const {
   VectorXf A = M_ * x.cast<float>();
   const Index count = A.size() / 2;
   const ArrayXf q = squares(A);
@@ -76,7 +76,7 @@ double QuickVariance::operator()(const VectorXd& x, VectorXd& gradient) const {
   return deviation.square().mean();
 }
 
-void QuickVariance::descend(VectorXd& x, int most_steps, const std::function<void()>& tick) const {
+void DensityObjectiveF32::descend(VectorXd& x, int most_steps, const std::function<void()>& tick) const {
   uv::minimise(
       [&](const VectorXd& at, VectorXd& gradient) {
         tick();
@@ -86,10 +86,10 @@ void QuickVariance::descend(VectorXd& x, int most_steps, const std::function<voi
   x.normalize();
 }
 
-ArrayXd QuickVariance::density(const VectorXd& x) const { return squares(M_ * x.cast<float>()).cast<double>(); }
+ArrayXd DensityObjectiveF32::density(const VectorXd& x) const { return squares(M_ * x.cast<float>()).cast<double>(); }
 
 // The inverse Hessian of Gauss and Newton: it has first derivatives of the logarithms alone.
-MatrixXd QuickVariance::inverse_curvature(const VectorXd& x) const {
+MatrixXd DensityObjectiveF32::inverse_curvature(const VectorXd& x) const {
   const VectorXf A = M_ * x.cast<float>();
   const Index count = A.size() / 2;
   const ArrayXf q = squares(A);
@@ -172,7 +172,7 @@ void PoleObjective::descend(const MatrixXcd& forms, MeromorphicForm& form, const
 
 void PoleObjective::descend_quickly(const MatrixXcd& forms, MeromorphicForm& form, const std::vector<double>& floors,
                                     const Tick& tick) const {
-  QuickVariance variance(columns(forms, form.poles).cast<std::complex<float>>(), kind_);
+  DensityObjectiveF32 variance(columns(forms, form.poles).cast<std::complex<float>>(), kind_);
   VectorXd x = uv::as_unknowns(unknowns(form), kind_);
   x.normalize();
   ArrayXd density = variance.density(x);

@@ -60,9 +60,9 @@ class SearchSteps {
 
   int every_;
   CandidateScores scores_;
-  std::optional<Exposure> exposure_;  // while poles are hidden
-  double weight_ = 0;                 // of its mean, beside the objective
-  double share_ = 0, limit_ = 0;      // by what the objective may grow for a pole, and up to which it may now
+  std::optional<AmbientOcclusion> exposure_;  // while poles are hidden
+  double weight_ = 0;                         // of its mean, beside the objective
+  double share_ = 0, limit_ = 0;              // by what the objective may grow for a pole, and up to which it may now
 };
 
 }  // namespace holomorph::tiling
