@@ -95,7 +95,7 @@ def whole_number(value: object, name: str, least: int = 0) -> int:
     return int(found)
 
 
-def complex_number(value, name):
+def complex_number(value: object, name: str) -> complex:
     """`value` as a finite complex number. @throws ValueError"""
     try:
         found = complex(value) if isinstance(value, numbers.Complex) else complex(math.nan)
