@@ -18,7 +18,7 @@ void of_a_mesh(Mesh& mesh, holomorph::Execution& execution) {{
 {1}
 }}
 void with_forms(Mesh& mesh, const holomorph::openmesh::SurfaceOfMesh& part, holomorph::structure::Structure& structure,
-                holomorph::structure::UvForms* forms, holomorph::Execution& execution) {{
+                holomorph::structure::PrimalForms* forms, holomorph::Execution& execution) {{
 {2}
 }}
 void of_a_file() {{
