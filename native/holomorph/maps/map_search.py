@@ -92,6 +92,8 @@ class MapSearch:
         best = self._untiled.balanced(best.cost if best else math.inf, why, progress) or best
         if best is None:
             return self._untiled.best(why, progress)
+        if flat is not None and flat.cost <= GOOD:
+            return best
         return self._untiled.islands(best.cost, progress) or best
 
     def fitted(self, found: Sequence[Map] | Refusal, density: float, window: Window, progress: Progress | None) -> Map:

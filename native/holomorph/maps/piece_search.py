@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -108,12 +108,12 @@ class PieceSearch:
             structure = automatic_structure(surface, threads=self._threads, progress=progress)
         except REFUSALS:
             return None
-        is_ring = is_tube(surface) and self._request.poles == "auto"  # whole tiles fit around it, poles would turn them
-        return TilingSearch(surface, structure, replace(self._request, poles=0) if is_ring else self._request)
+        return TilingSearch(surface, structure, self._request)
 
     def _is_worth(self, piece, search, rival):
-        """Whether its tiling may be part of a map that costs less than a tiling of the whole part."""
-        if not (rival and rival.tiling and search.has_no_poles):
+        """Whether its tiling may be part of a map that costs less than a tiling of the whole part. On a tube one
+        without poles tells that: they would turn the rows that run around it."""
+        if not (rival and rival.tiling and is_tube(search.surface)):
             return True
         return search.guess_without_poles() * piece.surface.area < rival.cost * self._surface.area
 

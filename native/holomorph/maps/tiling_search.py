@@ -43,15 +43,10 @@ class TilingSearch:
         self.surface, self._structure, self._request = surface, structure, request
 
     @property
-    def has_no_poles(self) -> bool:
-        """Whether none are asked for."""
-        return isinstance(self._request.poles, numbers.Real) and self._request.poles == 0
-
-    @property
     def is_strict(self) -> bool:
         """Whether more is asked of a tiling than its density."""
         options = self._request.options
-        is_chosen = not (self._is_open or self.has_no_poles)
+        is_chosen = not (self._is_open or self._has_no_poles)
         is_bound = any(options.get(name) is not None for name in ("max_added", "allowed"))
         return is_chosen or is_bound or bool(options.get("moves"))
 
@@ -135,6 +130,10 @@ class TilingSearch:
         is_quick = len(self.surface.triangles) <= FEW_TRIANGLES
         if is_evened and is_quick and made.drawn_range > UNEVEN and len(made.poles) < MOST_POLES:
             yield len(made.poles) + MORE_POLES
+
+    @property
+    def _has_no_poles(self):
+        return isinstance(self._request.poles, numbers.Real) and self._request.poles == 0
 
     @property
     def _is_open(self):
