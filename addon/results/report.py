@@ -154,7 +154,7 @@ class Outcome:
         self.judge(obj, entry)
         self.problems += _problems(obj, made)
         if len(made.solved.surface.repairs.joined_vertices):
-            self.notes.append(f"{obj.name}: most faces were separate, and were joined for the maps; {MERGE} joins them")
+            self.notes.append(f"{obj.name}: faces side by side were apart, and were joined for the maps; {MERGE} joins them")
         if target.polygons.faces is None:
             self.notes += _modifier_notes(obj, made.solved)
         extra = sum(w.kind == "attribute" for w in written)

@@ -108,7 +108,7 @@ def cut_lines(entry):
     yield from (cut["text"][0].upper() + cut["text"][1:] for cut in repairs["cuts"])
     joined = repairs["joined_vertices"]["count"]
     if joined:
-        yield f"Most faces were separate: {joined:,} vertices were joined"
+        yield f"{joined:,} vertices at the places of others were joined"
 
 
 def _topology(part):

@@ -90,8 +90,8 @@ class Repairs(Value):
     zero_area_faces : indices of polygons with a triangle whose corners lie on a line
     isolated_vertices : indices of vertices of no polygon
     cuts : one `Cut` for each reason for which the mesh was cut until it was a surface
-    joined_vertices : indices of vertices that were joined with a lower one at the same place, where most faces were
-        apart
+    joined_vertices : indices of vertices that were joined with a lower one at the same place, where faces that lie
+        side by side were apart
     mollification : added to the lengths of edges at degenerate triangles, in the unit of the positions; 0 if there are
         none (Sharp & Crane 2020, doi:10.1111/cgf.14069). The intrinsic Delaunay triangulation that invariants come from
         needs less, mostly none

@@ -34,8 +34,8 @@ class Surface(Value):
         fan of faces gets a vertex of its own, and `repairs.cuts` says where and why. Polygons and corners stay what
         they are. `refused` lists faces that are left out: those of fewer than three vertices, with coordinates that
         are not finite, at a vertex that is more than 1e9 times as far away as the mesh is large, or of parts without
-        area. Where most faces are separate, those whose sides run between the same places, in single precision, are
-        joined, see `repairs.joined_vertices`. Elements are then renumbered, see `vertex_index`
+        area. Faces whose sides have no neighbour and run between the same places, in single precision, in opposite
+        directions are joined, see `repairs.joined_vertices`. Elements are then renumbered, see `vertex_index`
 
     Raises
     ------

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <map>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -18,9 +16,6 @@ std::uint64_t mixed(std::uint64_t x) {
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
   return x ^ (x >> 31);
 }
-
-// x / 2^exponent, at most 2, in single precision; -0 becomes 0.
-float rounded(double x, int exponent) { return static_cast<float>(std::ldexp(x, -exponent)) + 0.0F; }
 
 class Labelling {
  public:
@@ -108,29 +103,6 @@ class Labelling {
 
 CornerLabels corner_labels(const std::vector<int>& vertices, const std::vector<int>& face_offsets) {
   return Labelling(vertices, face_offsets).labels();
-}
-
-std::vector<int> first_at_place(const std::vector<std::array<double, 3>>& vertices) {
-  struct Point {
-    std::array<float, 3> place;
-    int vertex;
-    bool operator<(const Point& other) const { return std::tie(place, vertex) < std::tie(other.place, other.vertex); }
-  };
-  double largest = 0;
-  for (const auto& [x, y, z] : vertices) largest = std::max({largest, std::abs(x), std::abs(y), std::abs(z)});
-  const int exponent = largest > 0 ? std::ilogb(largest) : 0;  // a power of two: it moves no digit
-  std::vector<Point> points(vertices.size());
-  for (int v = 0; v < static_cast<int>(vertices.size()); ++v) {
-    for (int k = 0; k < 3; ++k) points[v].place[k] = rounded(vertices[v][k], exponent);
-    points[v].vertex = v;
-  }
-  std::sort(points.begin(), points.end());
-  std::vector<int> first(vertices.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool is_same = i > 0 && points[i].place == points[i - 1].place;
-    first[points[i].vertex] = is_same ? first[points[i - 1].vertex] : points[i].vertex;
-  }
-  return first;
 }
 
 }  // namespace holomorph::mesh

@@ -1,7 +1,6 @@
 // Which corners of a polygon mesh may be at one vertex of a surface.
 #pragma once
 
-#include <array>
 #include <vector>
 
 namespace holomorph::mesh {
@@ -17,9 +16,5 @@ struct CornerLabels {
 /// @param vertices #C vertex of each corner
 /// Cost: O(#C log #C).
 CornerLabels corner_labels(const std::vector<int>& vertices, const std::vector<int>& face_offsets);
-
-/// #V the first vertex at the same place, by coordinates rounded to single precision. So copies of one vertex are found
-/// again after they went through a file or a matrix. @pre finite coordinates
-std::vector<int> first_at_place(const std::vector<std::array<double, 3>>& vertices);
 
 }  // namespace holomorph::mesh

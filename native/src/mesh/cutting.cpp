@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <numeric>
 #include <utility>
 
 #include "base/errors.h"
@@ -10,6 +9,7 @@
 #include "mesh/polygon_checks.h"
 #include "mesh/polygon_edges.h"
 #include "mesh/triangle_geometry.h"
+#include "mesh/welding.h"
 
 namespace holomorph::mesh {
 namespace {
@@ -84,33 +84,6 @@ class Recorder {
   std::vector<int> named_;  // vertices of cuts so far
 };
 
-// Which faces are apart from all others, and how the sides of the rest are joined.
-struct Plan {
-  CornerLabels labels;
-  SideJoins joins;
-};
-
-// @param vertices #C vertex of each corner
-Plan planned(const Polygons& mesh, const std::vector<int>& vertices) {
-  Plan plan{corner_labels(vertices, mesh.face_offsets), {}};
-  std::vector<int>& label = plan.labels.label;
-  const auto crowded = crowded_edges(mesh, label);
-  if (!crowded.empty()) {
-    const std::vector<int> face_of = corner_faces(mesh);
-    int count = *std::max_element(label.begin(), label.end()) + 1;
-    std::vector<char> apart(mesh.face_offsets.size() - 1, 0);
-    for (const auto& sides : crowded) {
-      for (const int s : sides) apart[face_of[s]] = 1;
-    }
-    for (std::size_t c = 0; c < label.size(); ++c) {
-      if (apart[face_of[c]]) label[c] = count++;
-    }
-  }
-  plan.joins = join_sides(mesh, label);
-  plan.joins.many.insert(plan.joins.many.end(), crowded.begin(), crowded.end());
-  return plan;
-}
-
 // A vertex for each fan, ordered by the vertices that these were.
 CutSurface numbered(UsableFaces usable, const Plan& plan, Execution& execution) {
   PolygonPart& part = usable.part;
@@ -148,28 +121,9 @@ CutSurface numbered(UsableFaces usable, const Plan& plan, Execution& execution) 
   return result;
 }
 
-// Sides without a partner.
-std::ptrdiff_t lone_sides(const SideJoins& joins) { return std::count(joins.partner.begin(), joins.partner.end(), -1); }
-
 CutSurface cut(UsableFaces usable, Execution& execution) {
-  const Polygons& mesh = usable.part.polygons;
-  Plan plan = planned(mesh, mesh.corner_vertices);
-  const std::ptrdiff_t lone = lone_sides(plan.joins);
-  // More than half of the sides are alone, as in files that give each face vertices of its own. Vertices at one place
-  // are joined then, if that leaves less than half of the lone sides.
-  if (2 * lone > std::ssize(mesh.corner_vertices)) {
-    const std::vector<int> first = first_at_place(mesh.vertices);
-    std::vector<int> vertices;
-    for (const int v : mesh.corner_vertices) vertices.push_back(first[v]);
-    Plan joined = planned(mesh, vertices);
-    if (2 * lone_sides(joined.joins) < lone) plan = std::move(joined);
-  }
+  const Plan plan = welded_plan(usable.part.polygons);
   return numbered(std::move(usable), plan, execution);
-}
-
-bool is_mostly_apart(const Surface& surface) {
-  const auto lone = std::count(surface.edge_face_count.begin(), surface.edge_face_count.end(), 1);
-  return 2 * lone > std::ssize(surface.polygons.corner_vertices);
 }
 
 // #components whether all triangles are degenerate.
@@ -241,7 +195,7 @@ CutSurface cut_surface_of(BasicPolygons<Index> given, Execution& execution) {
   }
   if (!failure) {
     result = as_given(narrowed(std::move(given)), failure, execution);
-    if (failure || is_mostly_apart(result.surface)) {
+    if (failure || meets_itself(result.surface)) {
       CutSurface made = cut(usable_faces(result.surface.polygons), execution);
       if (failure || !made.joined_vertices.empty()) result = std::move(made);
     }

@@ -51,8 +51,10 @@ struct CutSurface {
 /// own vertex. Leaves out faces with fewer than three vertices, with coordinates that are not finite or with wild
 /// vertices, and parts without area.
 ///
-/// Where most sides of faces have no neighbour, sides that run between the same places in opposite directions are
-/// joined first. This is done if it gives most of them a neighbour.
+/// Vertices are joined here, for every door: at sides without a neighbour that run between the same places
+/// (first_at_place) in opposite directions. Faces that lie back to back stay two. So a mesh whose vertices are apart
+/// along the seams of a UV map, as in glTF files, has no boundary there. Where most sides have no neighbour, faces may
+/// also be reversed.
 /// @throws InvalidMesh where no face is left
 /// Cost: linear for a surface; else O(#C log #C).
 CutSurface cut_surface(Polygons polygons, Execution& execution);

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "mesh/polygon_edges.h"
-#include "mesh/union_find.h"
 
 namespace holomorph::mesh {
 namespace {
@@ -93,11 +92,11 @@ class Joiner {
 
   SideJoins joined() && {
     take_edges();
-    SignedSets sheets = oriented_sheets();
+    result_.sheets = oriented_sheets();
     for (int s = 0; s < static_cast<int>(label_.size()); ++s) {
       if (result_.partner[s] > s) join_fans(s, result_.partner[s]);
     }
-    continue_sheets(sheets);
+    continue_sheets();
     for (const auto& sides : result_.many) join_what_closed(sides);
     result_.fan.resize(label_.size());
     for (int c = 0; c < static_cast<int>(label_.size()); ++c) result_.fan[c] = fans_.lowest(c);
@@ -181,7 +180,8 @@ class Joiner {
     fans_.join(next_[s], alike ? next_[t] : t);
   }
 
-  void continue_sheets(SignedSets& sheets) {
+  void continue_sheets() {
+    SignedSets& sheets = result_.sheets;
     for (const auto& sides : result_.many) {
       for (const int s : sides) {
         for (const int end : ends(s)) sides_at_[end].push_back(s);

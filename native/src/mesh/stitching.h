@@ -6,6 +6,7 @@
 
 #include "mesh/corner_labels.h"
 #include "mesh/polygons.h"
+#include "mesh/union_find.h"
 
 namespace holomorph::mesh {
 
@@ -26,6 +27,7 @@ struct SideJoins {
   std::vector<int> fan;                 ///< #C the lowest corner of those that get one vertex
   std::vector<std::vector<int>> many;   ///< sides of edges with three faces or more
   std::vector<std::vector<int>> sided;  ///< the two sides of each edge at which no orientation fits
+  SignedSets sheets{{}, {}};            ///< #F faces that hang together, and whether they are read in reverse
 };
 
 /// Joins sides so that the polygons become an oriented surface in which an edge is known by its ends.

@@ -56,7 +56,7 @@ def test_negative_zero_is_zero_and_nothing_else_is_rounded(tmp_path):
     text = stl_text(mesh).replace(b"0.0 1.0 0.0", b"-0.0 1.0 -0.0", 1)
     assert len(Surface.read(written(tmp_path, "a.stl", text)).vertices) == 4
     text = stl_text(mesh).replace(b"0.0 1.0 0.0", f"{tiny!r} 1.0 0.0".encode(), 1)
-    surface = Surface.read(written(tmp_path, "b.stl", text))
+    surface = Surface.read(written(tmp_path, "b.stl", text), strict=True)
     assert len(surface.vertices) == 5
     assert tiny in surface.vertices
 

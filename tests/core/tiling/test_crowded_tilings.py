@@ -56,7 +56,7 @@ def test_there_is_room_on_a_strip():
 def test_single_precision_changes_little(meshes):
     """A surface of genus 4 cut open to a disk. With eight poles the size range was 11 in double precision and 8000
     in single."""
-    given = Surface.read(meshes / "fertility_cutseam.obj")
+    given = Surface.read(meshes / "fertility_cutseam.obj", strict=True)
     single = Surface(given.vertices.astype(np.float32).astype(float), given.triangles)
     ranges = [Tiler(surface, 8).poles.size_range for surface in (given, single)]
     assert max(ranges) < 32
