@@ -151,21 +151,6 @@ def is_auto_smooth(modifier):
     return group is not None and group.name.startswith(("Auto Smooth", "Smooth by Angle"))
 
 
-def corner_normal_values(mesh):
-    """The normals of corners; computed on demand until 4.0."""
-    if hasattr(mesh, "calc_normals_split"):
-        mesh.calc_normals_split()
-        return Values(mesh.loops, "normal", np.float32, 3)
-    return Values(mesh.corner_normals, "vector", np.float32, 3)
-
-
-def set_corner_normals(mesh, normals):
-    """Keeps (#C, 3) normals of corners as custom ones; until 4.0 they count where auto smooth is on."""
-    if hasattr(mesh, "use_auto_smooth"):
-        mesh.use_auto_smooth = True
-    mesh.normals_split_custom_set(normals)
-
-
 @contextmanager
 def old_numpy_names():
     """Names that NumPy 1.24 no longer has and the glTF importer of Blender 3.4 uses: Debian ships the two together."""

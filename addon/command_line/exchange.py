@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files of other programs, read and written by Blender's own importers and exporters: with objects, materials, UV maps.
-
-In glTF each corner has a position of its own: vertices in one place are joined after reading, see `joining`.
-"""
+Meshes stay as they are read: vertices are joined by the package, for the maps alone."""
 
 import functools
 
@@ -12,13 +10,11 @@ from .. import compatibility, native
 from ..materials import material, plain
 from ..scene import gathering, uv_maps
 from ..writing import states
-from . import joining
 
 USD = (".usd", ".usda", ".usdc", ".usdz")
 GLTF = (".glb", ".gltf")
-SUFFIXES = (*GLTF, ".fbx", *USD, ".obj")
-KEPT_OF_OBJ = (b"vt", b"usemtl")  # lines of OBJ files for which Blender's importer is taken
-WITH_COLOUR = 7  # words of a vertex's line in OBJ files
+SCENES = (*GLTF, ".fbx", *USD)
+SUFFIXES = (*SCENES, ".obj")
 KINDS = {".obj": "OBJ", ".fbx": "FBX", **dict.fromkeys(GLTF, "glTF"), **dict.fromkeys(USD, "USD")}
 
 # What exporters leave out, rename or add by default.
@@ -46,20 +42,6 @@ class ExchangeError(Exception):
     """A file cannot be read or written; the text is one sentence."""
 
 
-def is_read_here(path):
-    """Whether Blender's importers are to read a file: an OBJ file if it has more than one bare mesh."""
-    if path.suffix.lower() != ".obj":
-        return path.suffix.lower() in SUFFIXES
-    objects = 0
-    with open(path, "rb") as lines:
-        for line in lines:
-            word, *more = line.split(maxsplit=WITH_COLOUR)[:WITH_COLOUR] or [b""]
-            objects += word == b"o"
-            if objects > 1 or word in KEPT_OF_OBJ or (word == b"v" and len(more) + 1 >= WITH_COLOUR):
-                return True
-    return False
-
-
 def read(path, up):
     """The mesh objects of a file, all selected, the first one active. @throws ExchangeError
 
@@ -73,8 +55,6 @@ def read(path, up):
     meshes = sorted((obj for obj in made if not gathering.is_helper(obj)), key=lambda obj: obj.name)
     if not meshes:
         raise ExchangeError(f"{path}: it contains no mesh")
-    for mesh in {obj.data for obj in meshes} if path.suffix.lower() in GLTF else ():
-        joining.join(mesh)
     for obj in compatibility.objects_in(layer):
         obj.select_set(obj in meshes)
     layer.objects.active = meshes[0]

@@ -7,13 +7,14 @@ from dataclasses import replace
 import bpy
 
 from .. import compatibility
-from ..native import holomorph
+from ..native import holomorph, module
 from ..operators import request
 from ..scene import gathering, mesh_io, targets
 from ..solving import jobs
 from . import exchange
 from .options import UsageError
 
+intake = module("mesh.intake")
 SHARP_ANGLE = 0.7  # radians, 40 degrees: sharper edges of an imported mesh stay sharp
 Z_UP_FROM_Y_UP = math.pi / 2  # radians about the x axis, as Blender's own importers rotate OBJ files
 
@@ -23,10 +24,10 @@ def collect(options):
     if options.mesh is not None and not options.mesh.is_file():
         raise UsageError(f"{options.mesh}: no such file")
     try:
-        if options.mesh is not None and not exchange.is_read_here(options.mesh):
-            obj, positions = _import_mesh(options)
-            return [targets.with_positions(target, positions) for target in targets.collect([obj], _request(options))]
-        asked, objects = _request(options), _named(options, _mesh_objects(options))
+        asked, file = _request(options), _intake(options)
+        if file is not None and not file.has_more:
+            return [_of_file(target, file) for target in targets.collect([_object_of(options, file)], asked)]
+        objects = _named(options, _mesh_objects(options))
         if asked.vertices is not None and len(objects) > 1:
             raise UsageError("vertices are chosen on one object: name it with --object")
         bpy.context.view_layer.update()  # the objects' matrices
@@ -50,21 +51,36 @@ def _request(options):
     return asked
 
 
-def _import_mesh(options):
-    """The mesh file as an object, in an otherwise empty scene unless a .blend was opened; and the file's positions."""
-    surface = holomorph.Surface.read(str(options.mesh))
-    options.warnings += [f"{options.mesh}: {note}" for note in surface.repairs.notes]
+def _intake(options):
+    """The package's `Intake` of the mesh file, None without one and of what Blender alone reads. An OBJ file that has
+    more than polygons is for Blender to read, which does not tell what it leaves out."""
+    if options.mesh is None or options.mesh.suffix.lower() in exchange.SCENES:
+        return None
+    file = intake.read(options.mesh, options.up)
+    told = [refused.reason for refused in file.surface.refused] if file.has_more else file.surface.repairs.notes
+    options.warnings += [f"{options.mesh}: {sentence}" for sentence in told]
+    return file
+
+
+def _object_of(options, file):
+    """The polygons of an `Intake` as an object, in an otherwise empty scene unless a .blend was opened."""
     _empty_scene()
-    mesh = mesh_io.new_mesh(options.mesh.stem, surface.vertices, surface.corner_vertices, surface.face_offsets)
+    mesh = mesh_io.new_mesh(options.mesh.stem, file.vertices, file.corner_vertices, file.face_offsets)
     mesh_io.shade_smooth(mesh, SHARP_ANGLE)
     obj = bpy.data.objects.new(mesh.name, mesh)
-    up = options.up or ("Y" if options.mesh.suffix.lower() == ".obj" else "Z")
-    if up == "Y":
+    if file.surface.up == "Y":
         obj.rotation_euler.x = Z_UP_FROM_Y_UP
     bpy.context.scene.collection.objects.link(obj)
     bpy.context.view_layer.objects.active = obj
     obj.select_set(True)
-    return obj, surface.vertices
+    return obj
+
+
+def _of_file(target, file):
+    """The target of the object with the positions of the file, more precise than Blender's, and the faces that were
+    left out of it."""
+    vertices = intake.upright(file.vertices, file.surface.up)
+    return replace(target, polygons=replace(target.polygons, vertices=vertices, left_out=file.surface.refused))
 
 
 def _empty_scene():

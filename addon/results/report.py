@@ -25,7 +25,7 @@ TEXT = "Holomorphic Report"
 def object_report(obj, made, written=(), new_seams=0, write_options=None):
     """One object: its maps as written, the options with which they were, and the report of each part."""
     solved, given = made.solved, [(part.component.surface, part.map, part.skipped) for part in made.parts]
-    about = holomorph.report.parts_report(given, solved.surface.refused, _repairs(solved))
+    about = holomorph.report.parts_report(given, solved.left_out, _repairs(solved))
     for part, entry in zip(made.parts, about["components"]):
         if part.component.note:
             entry["not_followed"] = part.component.note
@@ -154,7 +154,9 @@ class Outcome:
         self.judge(obj, entry)
         self.problems += _problems(obj, made)
         if len(made.solved.surface.repairs.joined_vertices):
-            self.notes.append(f"{obj.name}: faces side by side were apart, and were joined for the maps; {MERGE} joins them")
+            self.notes.append(
+                f"{obj.name}: faces side by side were apart, and were joined for the maps; {MERGE} joins them"
+            )
         if target.polygons.faces is None:
             self.notes += _modifier_notes(obj, made.solved)
         extra = sum(w.kind == "attribute" for w in written)
@@ -199,7 +201,7 @@ def _problems(obj, made):
         words = (what, "on" if which else "", which) if what == UNUSED else (which, what)
         yield f"{obj.name}: {' '.join(filter(None, words))}: {why}"
     left = {}
-    for refused in made.solved.surface.refused:
+    for refused in made.solved.left_out:
         left.setdefault(native.sentence(refused.reason), []).append(len(refused.faces))
     yield from (f"{obj.name}: {_faces(sum(counts))} left out: {reason}" for reason, counts in left.items())
 

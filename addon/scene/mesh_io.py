@@ -28,6 +28,7 @@ class Polygons:
     face_offsets: np.ndarray  # (#F+1,) int32
     loops: np.ndarray | None
     faces: np.ndarray | None = None  # (#F,) which polygons of the mesh they are, None for all
+    left_out: tuple = ()  # faces of a file that are not among them, as the package's `Refused`
 
     @property
     def face_count(self):
@@ -202,11 +203,6 @@ def weights(mesh, group):
     """(#V,) weights in the vertex group of this index; one by one, for Blender has no array of them."""
     of_each = (next((g.weight for g in vertex.groups if g.group == group), 0.0) for vertex in mesh.vertices)
     return np.fromiter(of_each, np.float64, len(mesh.vertices))
-
-
-def corner_normals(mesh):
-    """(#loops, 3)"""
-    return read_values(compatibility.corner_normal_values(mesh))
 
 
 def new_mesh(name, vertices, corner_vertices, face_offsets, edges=()):

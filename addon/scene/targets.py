@@ -175,11 +175,6 @@ def _selected(obj, use):
     return tuple(selected.tolist())
 
 
-def with_positions(target, vertices):
-    """The same target with these (#V,3) float64 positions: those of a file are more precise than Blender's."""
-    return replace(target, polygons=replace(target.polygons, vertices=vertices))
-
-
 def tasks(targets):
     return [jobs.Task(t.polygons, t.chosen) for t in targets if not t.refused]
 

@@ -88,59 +88,30 @@ def test_through_the_command_and_back(suffix, tmp_path):
 
 
 @may_write_gltf
-def test_a_gltf_file_has_its_vertices_joined_and_its_normals(tmp_path):
-    ring, _ = scene()
-    for polygon in ring.data.polygons:
-        polygon.use_smooth = True
+def test_a_gltf_file_keeps_its_vertices_and_is_mapped_as_one(tmp_path):
+    """Vertices that the format splits, here at each corner, are joined for the maps alone."""
+    scene()
     exchange.write(tmp_path / "scene.glb")
-    found = read_back(tmp_path / "scene.glb")
-    assert len(found["Ring"].data.vertices) == len(torus_arrays()[0])
-    normals = mesh_io.corner_normals(found["Ring"].data)
-    corners = mesh_io.read_indices(module("compatibility").polygon_values(found["Ring"].data)[1])
-    spread = [np.ptp(normals[corners == vertex], axis=0).max() for vertex in range(0, 288, 17)]
-    assert max(spread) < 0.02  # smooth
+    found, report = read_back(tmp_path / "scene.glb"), tmp_path / "report.json"
+    count = len(found["Ring"].data.vertices)
+    assert count > len(torus_arrays()[0])
+    done = headless(tmp_path / "scene.glb", "--object", "Ring", "--output", tmp_path / "out.blend", "--report", report)
+    assert done.returncode == 0, done.stderr
+    (entry,) = json.loads(report.read_text())["objects"]
+    assert [(part["genus"], part["boundary_count"]) for part in entry["components"]] == [(1, 0)]
+    assert entry["repairs"]["joined_vertices"]["count"] == count - len(torus_arrays()[0])
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert len(bpy.data.objects["Ring"].data.vertices) == count
 
 
-def test_a_bare_obj_is_read_with_double_precision_and_others_by_blender(tmp_path):
-    vertices, faces = torus_arrays()
-    path = write_obj(tmp_path / "ring.obj", vertices, faces)
-    assert not exchange.is_read_here(path)
-    path.write_text("o one\n" + path.read_text() + "o two\n")
-    assert exchange.is_read_here(path)
-    for line in ("vt 0 0\n", "usemtl Red\n", "vt\t0 0\n", "  usemtl\tRed\n", "v 0 0 0 1 0 0\n"):
-        path.write_text(line)
-        assert exchange.is_read_here(path)
-    assert not exchange.is_read_here(tmp_path / "ring.ply")
-
-
-def split(vertices, faces, sides=1, far=0.0):
-    """A mesh as glTF files have it: each corner a vertex of its own, which rounding may have moved; and the other side
-    of each face, where there are two."""
-    rows = np.concatenate([faces, *[faces[:, ::-1]] * (sides - 1)])
-    places = np.float32(vertices[rows].reshape(-1, 3) + far)
-    jitter = np.random.default_rng(0).integers(-1, 2, places.shape) if far else 0
-    places += np.spacing(np.abs(places)) * np.float32(jitter)
-    return mesh_io.new_mesh("Split", places, np.arange(len(places)), np.arange(0, len(places) + 1, 4))
-
-
-def sides_of(mesh):
-    """How many faces each edge has."""
-    each = mesh_io.read_polygons(mesh, np.eye(3)).corner_vertices.reshape(-1, 4)
-    sides = np.sort(np.stack([each, np.roll(each, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
-    return np.unique(sides, axis=0, return_counts=True)[1]
-
-
-@pytest.mark.parametrize("far", [0.0, 200.0, -7000.0])
-@pytest.mark.parametrize("sides", [1, 2, 3])
-def test_split_vertices_are_joined_and_no_face_is_lost(sides, far):
-    """Wherever they are, and though faces lie on each other: each sheet is closed."""
-    vertices, faces = torus_arrays()
-    faces = np.array(faces)
-    mesh = split(np.array(vertices), faces, sides, far)
-    module("command_line.joining").join(mesh)
-    assert len(mesh.polygons) == sides * len(faces)
-    assert len(mesh.vertices) == sides * len(vertices)
-    assert (sides_of(mesh) == 2).all()
+@pytest.mark.parametrize("line", ["vt 0 0", "usemtl Red", "vt\t0 0", "  usemtl\tRed", "v 0 0 0 1 0 0", "o a\no b"])
+def test_what_of_obj_files_blender_reads(line, tmp_path):
+    """What the package's reader, which tokenises the file, does not give."""
+    path = write_obj(tmp_path / "ring.obj", *torus_arrays())
+    read = module("native").module("mesh.intake").read
+    assert not read(path).has_more
+    path.write_text(path.read_text() + f"# a\n{line}\n")
+    assert read(path).has_more
 
 
 def test_what_a_reader_notes_is_told(tmp_path):

@@ -3,7 +3,6 @@ with those options with which they lose least."""
 
 import bpy
 import full_scene
-import numpy as np
 import pytest
 from exchange_formats import SCENES, may_write_gltf
 from headless_runs import headless
@@ -138,43 +137,3 @@ def test_shapes_of_bones_are_no_part_of_the_scene(source, tmp_path):
     exchange.write(tmp_path / "out.fbx")
     read(tmp_path / "out.fbx")
     assert {obj.name.split(".")[0] for obj in bpy.data.objects if obj.type == "MESH"} == meshes
-
-
-def mouth():
-    """A sheet that is cut along a row: a key, or else a group, moves what is above."""
-    vertices, faces = grid_arrays(4)
-    row = np.flatnonzero(vertices[:, 1] == 2)
-    copies = np.arange(len(vertices))
-    copies[row] = len(vertices) + np.arange(len(row))
-    is_above = vertices[faces][:, :, 1].mean(axis=1) > 2
-    obj = mesh_object("Mouth", [*vertices, *vertices[row]], np.where(is_above[:, None], copies[faces], faces))
-    return obj, np.unique(copies[faces[is_above]]).tolist(), len(row)
-
-
-@may_write_gltf
-@pytest.mark.parametrize("moved_by", ["key", "group", ""])
-def test_lips_do_not_grow_together(moved_by, tmp_path):
-    """Vertices of one place that keys or bones move apart are not joined when a glTF file is read, others are."""
-    obj, above, split = mouth()
-    if moved_by == "key":
-        obj.shape_key_add(name="Basis")
-        places = obj.shape_key_add(name="Open").data
-        for vertex in above:
-            places[vertex].co.z += 1
-    if moved_by == "group":
-        rig = full_scene.place("Rig", bpy.data.armatures.new("Rig"))
-        bpy.context.view_layer.objects.active = rig
-        bpy.ops.object.mode_set(mode="EDIT")
-        for number, name in enumerate(("Jaw", "Head")):
-            bone = rig.data.edit_bones.new(name)
-            bone.head, bone.tail = (number, 0, 0), (number, 0, 1)
-        bpy.ops.object.mode_set(mode="OBJECT")
-        obj.vertex_groups.new(name="Head").add(above, 1.0, "REPLACE")
-        below = sorted(set(range(len(obj.data.vertices))) - set(above))
-        obj.vertex_groups.new(name="Jaw").add(below, 1.0, "REPLACE")
-        obj.modifiers.new("Armature", "ARMATURE").object, obj.parent = rig, rig
-    count = len(obj.data.vertices)
-    exchange.write(tmp_path / "mouth.glb")
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    (read_here,) = exchange.read(tmp_path / "mouth.glb", "Y")
-    assert len(read_here.data.vertices) == count - (0 if moved_by else split)

@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 
 MAP = "Holomorphic"
-GLTF = (".glb", ".gltf")  # in which every corner has a vertex of its own, but where all of it agrees
+GLTF = (".glb", ".gltf")
 IMPORTER_HELPERS = "glTF_not_exported"  # the collection of shapes of bones, which the glTF importer makes
 
 
@@ -53,7 +53,7 @@ def read(path, folder):
     meshes = [obj for obj in bpy.data.objects if obj.type == "MESH" and len(obj.data.polygons) and not is_helper(obj)]
     listed = []
     for number, obj in enumerate(sorted(meshes, key=lambda obj: obj.name)):
-        arrays = mesh_arrays(obj, Path(path).suffix.lower() in GLTF)
+        arrays = mesh_arrays(obj)
         np.savez(Path(folder, f"{number}.npz"), **arrays)
         listed.append([obj.name, f"{number}.npz", len(arrays["corner_vertices"])])
     if not listed:
@@ -61,26 +61,17 @@ def read(path, folder):
     Path(folder, "objects.json").write_text(json.dumps(listed), encoding="utf-8")
 
 
-def mesh_arrays(obj, is_split):
-    """is_split : whether vertices in the very same place are one: the first of them stands for all"""
+def mesh_arrays(obj):
     mesh, matrix = obj.data, np.array(obj.matrix_world, float)
     points = values(mesh.vertices, "co", np.float32, 3)
-    vertex = first_at_each_place(points) if is_split else np.arange(len(points))
     sizes = values(mesh.polygons, "loop_total", np.int32)
     edges = values(mesh.edges, "vertices", np.int32, 2)
     return {
         "vertices": points.astype(float) @ matrix[:3, :3].T,
-        "corner_vertices": vertex[values(mesh.loops, "vertex_index", np.int32)].astype(np.int32),
+        "corner_vertices": values(mesh.loops, "vertex_index", np.int32),
         "face_offsets": np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32),
-        "seams": vertex[edges[values(mesh.edges, "use_seam", bool)]].astype(np.int32),
+        "seams": edges[values(mesh.edges, "use_seam", bool)],
     }
-
-
-def first_at_each_place(points):
-    """(#V,) the lowest vertex with these coordinates, compared as bytes."""
-    keys = (points + np.float32(0)).view(np.dtype((np.void, 3 * points.itemsize)))[:, 0]  # -0 is 0
-    _, first, place = np.unique(keys, return_index=True, return_inverse=True)
-    return first[place.ravel()]
 
 
 def values(elements, name, kind, columns=1):

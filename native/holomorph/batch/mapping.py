@@ -76,7 +76,7 @@ def refused_reports(surface):
 
 def _check_chosen(surface, maps):
     for vertex in (*maps.poles, *maps.rectangle_corners):
-        if not np.any(surface.vertex_index == vertex):
+        if not on_part(surface, [vertex])[1].all():
             raise TopologyError(f"vertex {vertex}, which the recipe chooses, lies on no part of the mesh")
 
 

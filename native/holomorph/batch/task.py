@@ -70,8 +70,8 @@ def _mapped(task):
     """The report, the files, and the timings of each part, which are not results: they differ from run to run."""
     if task.problem:
         raise InvalidMesh(task.problem)
-    surface, seams = _read(task.path)
     recipe = task.recipe
+    surface, seams = _read(task.path, recipe.output.up)
     parts = mapping.map_parts(surface, recipe, seams, task.threads)
     uv = mapping.main_uv(surface, parts, recipe.maps)
     reports = [part.report for part in parts]
@@ -85,17 +85,16 @@ def _mapped(task):
         "repairs": repairs_report(surface.repairs),
         "components": reports,
     }
-    up = recipe.output.up or ("Y" if task.path.suffix.lower() == ".obj" else "Z")
-    files = {"picture.png": picture.png(surface, uv, _is_mapped(surface, parts), up)}
+    files = {"picture.png": picture.png(surface, uv, _is_mapped(surface, parts), surface.up)}
     if any(part.map for part in parts):
         files |= _files(task, surface, uv, parts)
     return content, files, timings
 
 
-def _read(path):
+def _read(path, up):
     """The surface, and the (#S, 2) vertices of the edges that are marked as seams, None in mesh files."""
     if path.suffix != blend.ARRAYS:
-        return Surface.read(path), None
+        return Surface.read(path, up=up), None
     with np.load(path) as arrays:
         mesh = arrays["vertices"], arrays["corner_vertices"], arrays["face_offsets"]
         return Surface.from_polygons(*mesh, strict=False), arrays["seams"]

@@ -141,7 +141,8 @@ def _aspect(heights):
 def _scaled(surface, factor):
     if factor == 1 or surface.vertices is None:
         return surface
-    return Surface.from_polygons(surface.vertices * factor, surface.corner_vertices, surface.face_offsets, strict=False)
+    arrays = surface.vertices * factor, surface.corner_vertices, surface.face_offsets
+    return Surface.from_polygons(*arrays, strict=False)._standing_as(surface)
 
 
 def _told(made, refused, parts, depth):

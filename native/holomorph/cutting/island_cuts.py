@@ -32,7 +32,7 @@ class Cuts:
     def pieces(self):
         """A `Surface` of several components, more polygons at its end in small holes."""
         opened = cut_open(self.surface, self.mask)
-        return Surface._of(_native.filled(opened._native))
+        return Surface._of(_native.filled(opened._native))._standing_as(opened)
 
     def add(self, cuts):
         """Cuts these edges, too, (#E,) bool. Returns whether there were any."""
@@ -118,4 +118,5 @@ def in_one_orientation(surface):
     starts, ends = (np.repeat(bound, np.diff(offsets)) for bound in (offsets[:-1], offsets[1:]))
     order = np.where(np.repeat(is_reversed, np.diff(offsets)), starts + ends - 1 - order, order)
     corners = np.ascontiguousarray(surface.corner_vertices[order])
-    return Surface._of(_native.Surface.from_polygons(surface.vertices, corners, offsets)), order
+    native = _native.Surface.from_polygons(surface.vertices, corners, offsets)
+    return Surface._of(native)._standing_as(surface), order

@@ -20,7 +20,11 @@ from .hard_edges import seen
 from .island_cuts import Cuts, corner_pieces
 
 MARGIN = 0.02  # between islands, in sides of the square that they are packed into
-AXES = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))  # what is up on an island: the first that it shows
+# What is up on an island, by `Surface.up`: the first of these that it shows.
+AXES = {
+    "Y": ((0.0, 1.0, 0.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0)),
+    "Z": ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)),
+}
 SHOWN = 0.2  # part of the area over which the axis is seen, from which on it counts
 TURNED = 1e-3  # 1 less the cosine of an angle that is a turn
 SAME = 1e-5  # UV distance over the size of the map, below which the two sides of an edge are at one place
@@ -135,7 +139,7 @@ def _upright(pieces, uv):
     areas = np.bincount(at, np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1) / 2, count)
     turn = np.ones(count, complex)
     is_open = np.ones(count, bool)
-    for axis in AXES:
+    for axis in AXES[pieces.up]:
         rise = (across * (points @ axis)).sum(axis=1)
         slope = np.bincount(at, rise.real, count) + 1j * np.bincount(at, rise.imag, count)
         is_shown = is_open & (np.abs(slope) > SHOWN * areas)

@@ -68,7 +68,7 @@ def _seam_keys(surface, seams, sides, strict):
             f"seams are an array of {seams.dtype} of {seams.shape}; (rows, 2) integers are needed, vertices of edges"
         )
     is_vertex = ((seams >= 0) & (seams < surface.given_vertex_count)).all(axis=1)
-    wanted = edge_keys(seams, surface.given_vertex_count)
+    wanted = edge_keys(surface._origin.lowest(seams), surface.given_vertex_count)
     is_known = is_vertex & np.isin(wanted, sides)
     for a, b in seams[~is_known] if strict else ():
         raise TopologyError(f"a seam runs between the vertices {a} and {b}, which no edge of a face joins")

@@ -94,7 +94,7 @@ def chosen_structures(
     """(the surface of these polygons, its parts). Raises for a mesh that cannot be treated as a whole, and where an
     explicit choice of vertices does not fit the part they lie on."""
     surface = Surface.from_polygons(vertices, corner_vertices, face_offsets, strict=False)
-    chosen = _on_surface(choices, corner_vertices, surface)
+    chosen = _on_surface(choices, surface)
     parts = _parts(surface, chosen, progress)
     explicit = np.array(choices.vertices if choices.is_explicit else (), np.int64)
     stray = explicit[~np.isin(explicit, corner_vertices)]
@@ -108,14 +108,11 @@ def chosen_structures(
     return surface, made
 
 
-def _on_surface(choices, corner_vertices, surface):
+def _on_surface(choices, surface):
     """The same choices where vertices of the mesh were joined: the lowest of them stands for all."""
-    if not len(surface.repairs.joined_vertices):
-        return choices
-    lowest = np.arange(surface.given_vertex_count)
-    lowest[corner_vertices[surface.corner_index]] = surface.vertex_index[surface.corner_vertices]
-    vertices = choices.vertices and tuple(dict.fromkeys(lowest[list(choices.vertices)].tolist()))
-    return replace(choices, vertices=vertices, seams=lowest[choices.seams])
+    lowest = surface._origin.lowest
+    vertices = choices.vertices and tuple(dict.fromkeys(lowest(np.array(choices.vertices, np.int64)).tolist()))
+    return replace(choices, vertices=vertices, seams=lowest(choices.seams))
 
 
 def _parts(surface, choices, progress):

@@ -66,7 +66,7 @@ def names_of_pieces(surface: Surface, is_hard_edge: Flags) -> Integers:
 def cut_apart(surface: Surface, names: Integers) -> tuple[Surface, ...]:
     """The components of a surface that is cut between polygons of different names, (#F,). They count as it does."""
     oriented, order = in_one_orientation(surface)
-    origin = Origin(corner_index=order.astype(np.int32), vertex_count=len(surface.vertices))
+    origin = Origin(corner_index=order.astype(np.int32), vertex_count=len(surface.vertices), up=surface.up)
     return cut_open(Surface._of(oriented._native, origin), edges_between(oriented, names)).components
 
 

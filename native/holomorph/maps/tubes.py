@@ -35,7 +35,7 @@ def closed(surface: Surface) -> Surface:
     polygons = [around_boundary(surface, start[names == name])[::-1] for name in windows]
     corners = np.concatenate([surface.corner_vertices, *polygons])
     offsets = np.concatenate([surface.face_offsets, len(surface.corner_vertices) + np.cumsum([*map(len, polygons)])])
-    return Surface.from_polygons(surface.vertices, corners, offsets)
+    return Surface.from_polygons(surface.vertices, corners, offsets)._standing_as(surface)
 
 
 def opened(made: Map, surface: Surface) -> Map:

@@ -7,6 +7,7 @@ import numpy as np
 from .. import _native
 from .._native import InvalidMesh
 from ..core import arrays
+from ..core.value import quoted
 from .origin import AS_GIVEN, Origin
 from .other_packages import given_polygons
 
@@ -28,10 +29,17 @@ def of_polygons(vertices, corner_vertices, face_offsets, strict):
     )
 
 
-def of_file(path, strict, weld):
+def of_file(path, strict, weld, up):
     """Makes one of the arguments of `Surface.read`."""
-    part = _native.Surface.read(os.fspath(path), strict, weld)
-    return part.surface, Origin.of_part(part)
+    if up not in (None, "Y", "Z"):
+        raise ValueError(f'up is {quoted(up)}; "Y" or "Z" is needed')
+    return of_read(_native.FileMesh.read(os.fspath(path), weld), path, strict, up)
+
+
+def of_read(file, path, strict, up):
+    """Makes one of a native `FileMesh`, from which its arrays are then gone."""
+    part = file.surface(strict)
+    return part.surface, Origin.of_part(part, up or ("Y" if str(path).lower().endswith(".obj") else "Z"))
 
 
 def _of(vertices, corner_vertices, face_offsets, strict):

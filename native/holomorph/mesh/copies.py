@@ -50,8 +50,8 @@ class _Shape:
         lengths, size = part._native.edge_lengths, part.area**0.5
         if part.vertices is None:
             return cls(lengths, lengths.mean(), np.empty(0), size, SINGLE * lengths.max())
-        heights = part.vertices[:, 2] - part.vertices[:, 2].mean()
-        return cls(lengths, lengths.mean(), heights, size, SINGLE * np.abs(part.vertices).max())
+        heights = part.vertices[:, "XYZ".index(part.up)]
+        return cls(lengths, lengths.mean(), heights - heights.mean(), size, SINGLE * np.abs(part.vertices).max())
 
     def scale_of(self, other):
         """Lengths over those of the other, 0 where it is not a copy. @pre the same triangles"""

@@ -22,7 +22,7 @@ def cut_open(surface, is_seam):
     corner_vertices[surface.triangle_corners.ravel()] = new.ravel()
     native = _native.Surface.from_polygons(surface.vertices[index], corner_vertices, surface.face_offsets)
     vertex_index = arrays.frozen(surface.vertex_index[index])
-    origin = Origin(vertex_index, surface.face_index, surface.corner_index, surface.given_vertex_count)
+    origin = Origin(vertex_index, surface.face_index, surface.corner_index, surface.given_vertex_count, up=surface.up)
     return Surface._of(native, origin)
 
 

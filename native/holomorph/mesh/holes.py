@@ -100,5 +100,5 @@ def _without(component, goes, sizes):
     native = _native.Surface.from_polygons(component.vertices, corners, offsets)
     face_index = component.face_index[~goes[component.face_offsets[:-1]]]
     indices = component.vertex_index, face_index, component.corner_index[~goes]
-    (part,) = Surface._of(native, Origin(*indices, component.given_vertex_count)).components
+    (part,) = Surface._of(native, Origin(*indices, component.given_vertex_count, up=component.up)).components
     return part

@@ -8,7 +8,7 @@ from ..core import arrays
 from ..core.array_types import Integers
 from .repairs import Cut, Refused, Repairs
 
-NO_VERTICES = arrays.frozen(np.empty(0, np.int32))
+NO_PAIRS = arrays.frozen(np.empty((0, 2), np.int32))
 
 
 class Origin(NamedTuple):
@@ -20,12 +20,13 @@ class Origin(NamedTuple):
     corner_index: Integers | None = None
     vertex_count: int | None = None  # the mesh's; None for that of the surface
     cuts: tuple[Cut, ...] = ()
-    joined_vertices: Integers = NO_VERTICES
+    joined: Integers = NO_PAIRS  # (n, 2) vertices that were joined with a lower one, ascending, and that one
     refused: tuple[Refused, ...] = ()
     notes: tuple[str, ...] = ()  # about the file
+    up: str = "Z"  # see `Surface.up`
 
     @classmethod
-    def of_part(cls, part):
+    def of_part(cls, part, up="Z"):
         """The `Origin` of the surface in a native part of a mesh."""
         return cls(
             part.vertex_index,
@@ -33,16 +34,27 @@ class Origin(NamedTuple):
             part.corner_index,
             part.given_vertex_count,
             tuple(Cut(cut.reason.name, cut.vertices, cut.edges, cut.faces) for cut in part.cuts),
-            arrays.frozen(np.array(part.joined_vertices, np.int32)),
+            arrays.frozen(np.array(part.joined_vertices, np.int32).reshape(-1, 2)),
             tuple(Refused(entry.faces, entry.reason) for entry in part.refused),
             tuple(part.notes),
+            up,
         )
 
     def of_component(self, part, vertex_count):
         """The `Origin` of a native part of the surface, in a mesh with this number of vertices."""
         indices = self.vertex_index, self.face_index, self.corner_index
         own = part.vertex_index, part.face_index, part.corner_index
-        return Origin(*map(_in_mesh, indices, own), vertex_count)
+        vertex_index, *others = map(_in_mesh, indices, own)
+        joined = arrays.frozen(self.joined[np.isin(self.joined[:, 1], vertex_index)])
+        return Origin(vertex_index, *others, vertex_count, joined=joined, up=self.up)
+
+    def lowest(self, vertices):
+        """Vertices of the mesh as given; of those that were joined, the one that stands for them."""
+        if not len(self.joined):
+            return vertices
+        own, into = self.joined.T
+        places = np.searchsorted(own, vertices).clip(max=len(own) - 1)
+        return np.where(own[places] == vertices, into[places], vertices)
 
     def repairs(self, native):
         """The `Repairs` of the native surface."""
@@ -51,7 +63,7 @@ class Origin(NamedTuple):
             _in_mesh(self.face_index, native.zero_area_faces),
             _in_mesh(self.vertex_index, native.isolated_vertices),
             self.cuts,
-            self.joined_vertices,
+            arrays.frozen(self.joined[:, 0]),
             native.mollification(),
             self.notes,
         )
@@ -69,6 +81,6 @@ def on_part(part, vertices):
     whether it has the vertex). O((#V + n) log #V)."""
     index = part.vertex_index
     order = np.argsort(index, kind="stable")
-    vertices = np.asarray(vertices, np.int64)
+    vertices = part._origin.lowest(np.asarray(vertices, np.int64))
     places = order[np.searchsorted(index, vertices, sorter=order).clip(max=len(order) - 1)]
     return places, index[places] == vertices

@@ -82,7 +82,7 @@ class Surface(Value):
         return cls._of(checked_mesh.of_edge_lengths(faces, edge_lengths, face_edges))
 
     @classmethod
-    def read(cls, path: FilePath, strict: bool = False, weld: bool = False) -> Surface:
+    def read(cls, path: FilePath, strict: bool = False, weld: bool = False, up: str | None = None) -> Surface:
         """OBJ, OFF, PLY or STL; polygons are kept, in double precision.
 
         Parameters
@@ -90,13 +90,14 @@ class Surface(Value):
         strict : as in `Surface`, but by default a mesh is cut until it is a surface
         weld : join vertices with equal coordinates, for files in which every face has vertices of its own; what that
             leaves of a face with fewer than three corners is left out. STL files always are welded
+        up : "Y" or "Z", see `Surface.up`
 
         Raises
         ------
         InvalidMesh
             if the file is missing or malformed (names the line or byte), or no face of the mesh in it can be mapped.
         """
-        return cls._of(*checked_mesh.of_file(path, strict, weld))
+        return cls._of(*checked_mesh.of_file(path, strict, weld, up))
 
     def write(self, path: FilePath, uv: ArrayLike | None = None, texture: FilePath | None = None) -> None:
         """Writes OBJ or PLY with its polygons, or GLB (binary glTF) with its triangles: positions, and with `uv`,
@@ -242,6 +243,16 @@ class Surface(Value):
     def repairs(self) -> Repairs:
         """The `Repairs`: what was wrong with the input, and handled inside."""
         return self._origin.repairs(self._native)
+
+    @property
+    def up(self) -> str:
+        """The axis of the positions that points up, so that maps stand upright: "Y" in OBJ files, else "Z"."""
+        return self._origin.up
+
+    def _standing_as(self, other):
+        """This surface, made from another one: the same axis points up."""
+        self._origin = self._origin._replace(up=other.up)
+        return self
 
     @property
     def is_whole(self) -> bool:

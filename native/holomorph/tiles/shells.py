@@ -55,4 +55,5 @@ def _turned(surface, parts):
     starts, ends = surface.face_offsets[:-1], surface.face_offsets[1:]
     corners = np.arange(len(surface.corner_vertices))
     back = np.where(np.repeat(is_wrong, ends - starts), np.repeat(starts + ends - 1, ends - starts) - corners, corners)
-    return Surface.from_polygons(surface.vertices, surface.corner_vertices[back], surface.face_offsets, strict=False)
+    arrays = surface.vertices, surface.corner_vertices[back], surface.face_offsets
+    return Surface.from_polygons(*arrays, strict=False)._standing_as(surface)

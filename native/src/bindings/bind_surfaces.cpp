@@ -59,7 +59,7 @@ struct Part {
   py::object vertex_index = py::none(), face_index = py::none(), corner_index = py::none();
   int given_vertex_count = 0;
   std::vector<mesh::Cut> cuts = {};
-  std::vector<int> joined_vertices = {};
+  std::vector<mesh::Pair> joined_vertices = {};
   std::vector<mesh::RefusedFaces> refused = {};
   std::vector<std::string> notes = {};
 };
@@ -95,31 +95,40 @@ void number_as_in_file(std::vector<int>& index, const std::vector<int>& in_file)
   }
 }
 
-Part read(const std::filesystem::path& path, bool strict, bool weld) {
-  mesh::FileRecord file;
-  mesh::CutSurface cut = without_lock([&]() -> mesh::CutSurface {
-    Execution execution;
-    mesh::GivenPolygons polygons = mesh::read(path);
-    if (weld) polygons = mesh::welded(polygons);
-    file = polygons.file;
-    if (!strict) return mesh::cut_surface(std::move(polygons), execution);
-    mesh::Surface surface = mesh::make_surface(std::move(polygons), execution);
-    mesh::refuse_wild_vertices(surface.polygons);
-    const int count = surface.vertex_count;
-    return {std::move(surface), {}, {}, {}, count, {}, {}, {}};
-  });
-  if (!file.face_index.empty()) {
-    number_as_in_file(cut.face_index, file.face_index);
-    number_as_in_file(cut.corner_index, file.corner_index);
-    for (mesh::RefusedFaces& refused : cut.refused) number_as_in_file(refused.faces, file.face_index);
-    for (mesh::Cut& each : cut.cuts) {
-      if (!each.faces.empty()) number_as_in_file(each.faces, file.face_index);
-    }
+// A file that was read, of which a surface is made once.
+struct FileMesh {
+  mesh::GivenPolygons polygons;
+
+  static FileMesh read(const std::filesystem::path& path, bool weld) {
+    return without_lock([&]() -> FileMesh {
+      mesh::GivenPolygons polygons = mesh::read(path);
+      return {weld ? mesh::welded(polygons) : std::move(polygons)};
+    });
   }
-  Part part = as_part(std::move(cut));
-  part.notes = std::move(file.notes);
-  return part;
-}
+
+  Part surface(bool strict) {
+    const mesh::FileRecord file = polygons.file;
+    mesh::CutSurface cut = without_lock([&]() -> mesh::CutSurface {
+      Execution execution;
+      if (!strict) return mesh::cut_surface(std::move(polygons), execution);
+      mesh::Surface surface = mesh::make_surface(std::move(polygons), execution);
+      mesh::refuse_wild_vertices(surface.polygons);
+      const int count = surface.vertex_count;
+      return {std::move(surface), {}, {}, {}, count, {}, {}, {}};
+    });
+    if (!file.face_index.empty()) {
+      number_as_in_file(cut.face_index, file.face_index);
+      number_as_in_file(cut.corner_index, file.corner_index);
+      for (mesh::RefusedFaces& refused : cut.refused) number_as_in_file(refused.faces, file.face_index);
+      for (mesh::Cut& each : cut.cuts) {
+        if (!each.faces.empty()) number_as_in_file(each.faces, file.face_index);
+      }
+    }
+    Part part = as_part(std::move(cut));
+    part.notes = file.notes;
+    return part;
+  }
+};
 
 std::vector<Part> components(const Surface& surface) {
   std::vector<mesh::Component> parts;
@@ -185,9 +194,27 @@ void bind_parts(py::module_& m) {
       .def_readonly("corner_index", &Part::corner_index)
       .def_readonly("given_vertex_count", &Part::given_vertex_count)
       .def_readonly("cuts", &Part::cuts)
-      .def_property_readonly("joined_vertices", [](const Part& part) { return copy(part.joined_vertices); })
+      .def_property_readonly(
+          "joined_vertices",
+          [](const py::object& self) { return view(self.cast<const Part&>().joined_vertices, self); })
       .def_readonly("refused", &Part::refused)
       .def_readonly("notes", &Part::notes);
+}
+
+void bind_file(py::module_& m) {
+  py::class_<FileMesh>(m, "FileMesh")
+      .def_static("read", &FileMesh::read, py::arg("path"), py::arg("weld"))
+      .def_property_readonly("vertices",
+                             [](const FileMesh& f) {  // a copy: what they are in moves to the surface
+                               const auto& points = f.polygons.vertices;
+                               const auto* const data = points.empty() ? nullptr : points.front().data();
+                               return py::array_t<double>({std::ssize(points), std::ptrdiff_t{3}}, data);
+                             })
+      .def_property_readonly("corner_vertices", [](const FileMesh& f) { return copy(f.polygons.corner_vertices); })
+      .def_property_readonly("face_offsets", [](const FileMesh& f) { return copy(f.polygons.face_offsets); })
+      .def_property_readonly("corner_index", [](const FileMesh& f) { return copy(f.polygons.file.corner_index); })
+      .def_property_readonly("has_more", [](const FileMesh& f) { return f.polygons.file.has_more; })
+      .def("surface", &FileMesh::surface, py::arg("strict"));
 }
 
 void bind_surface(py::module_& m) {
@@ -202,6 +229,7 @@ void bind_surface(py::module_& m) {
   };
   py::class_<Surface, SurfacePointer> type(m, "Surface");
   bind_parts(m);
+  bind_file(m);
   type.def_static("from_polygons", &from_polygons<int>, py::arg("vertices"), py::arg("corner_vertices").noconvert(),
                   py::arg("face_offsets").noconvert())
       .def_static("from_polygons", &from_polygons<std::int64_t>, py::arg("vertices"), py::arg("corner_vertices"),
@@ -211,7 +239,6 @@ void bind_surface(py::module_& m) {
       .def_static("cut", &cut<int>, py::arg("vertices"), py::arg("corner_vertices").noconvert(),
                   py::arg("face_offsets").noconvert())
       .def_static("cut", &cut<std::int64_t>, py::arg("vertices"), py::arg("corner_vertices"), py::arg("face_offsets"))
-      .def_static("read", &read, py::arg("path"), py::arg("strict"), py::arg("weld"))
       .def("components", &components)
       .def("topology", &mesh::topological_type)
       .def("euler_characteristic", &mesh::euler_characteristic)

@@ -108,10 +108,11 @@ CutSurface numbered(UsableFaces usable, const Plan& plan, Execution& execution) 
   for (int c = 0; c < corners; ++c) {
     cut.corner_vertices[c] = number[fan[c]];
     if (mesh.corner_vertices[c] != least[fan[c]])
-      result.joined_vertices.push_back(part.vertex_index[mesh.corner_vertices[c]]);
+      result.joined_vertices.push_back({part.vertex_index[mesh.corner_vertices[c]], part.vertex_index[least[fan[c]]]});
   }
-  std::sort(result.joined_vertices.begin(), result.joined_vertices.end());
-  const auto end = std::unique(result.joined_vertices.begin(), result.joined_vertices.end());
+  make_ascending(result.joined_vertices);
+  const auto same = [](const Pair& a, const Pair& b) { return a[0] == b[0]; };
+  const auto end = std::unique(result.joined_vertices.begin(), result.joined_vertices.end(), same);
   result.joined_vertices.erase(end, result.joined_vertices.end());
   result.cuts = cuts(part, plan.labels, plan.joins, cut.corner_vertices);
   result.surface = make_surface(std::move(cut), execution);

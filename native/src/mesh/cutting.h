@@ -43,7 +43,7 @@ struct CutSurface {
   std::vector<int> vertex_index, face_index, corner_index;
   int given_vertex_count = 0;
   std::vector<Cut> cuts;              ///< by reasons
-  std::vector<int> joined_vertices;   ///< given vertices that became one with a lower one at the same place
+  std::vector<Pair> joined_vertices;  ///< given vertices that became one with a lower one, and that one; ascending
   std::vector<RefusedFaces> refused;  ///< faces that are left out, by reasons
 };
 

@@ -99,8 +99,7 @@ def edge_mismatch(mesh, values):
 def parts_of(obj):
     """The connected parts of an object as the library numbers them, with `corner_index` into its corners."""
     polygons = mesh_io.read_polygons(obj.data, np.eye(3))
-    surface = polygons.surface()
-    return surface.components
+    return polygons.surface(strict=False).components
 
 
 def boundary_corners(part):
