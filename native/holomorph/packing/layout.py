@@ -27,6 +27,10 @@ GAP_ROUNDS = 4  # the gap is a share of a side that depends on the gap; each rou
 
 def rows(sizes: Reals, width: float, gap: float) -> tuple[Reals, tuple[float, float]]:
     """((n, 2) lower left corners, (w, h) of the whole): the rectangles of (n, 2) `sizes` on shelves of `width`."""
+    return _rows(sizes, real_number(width, "width"), real_number(gap, "gap"))
+
+
+def _rows(sizes, width, gap):
     order = np.argsort(-sizes[:, 1], kind="stable")
     corners = np.zeros_like(sizes)
     x = y = widest = height = 0.0
@@ -44,7 +48,7 @@ def rows(sizes: Reals, width: float, gap: float) -> tuple[Reals, tuple[float, fl
 def _best_rows(sizes, gap):
     padded = sizes + gap
     square = max(math.sqrt(float(np.prod(padded, axis=1).sum())), float(sizes[:, 0].max()))
-    found = [rows(sizes, width, gap) for width in np.geomspace(square, WIDEST * square, WIDTHS)]
+    found = [_rows(sizes, width, gap) for width in np.geomspace(square, WIDEST * square, WIDTHS)]
     return min(found, key=lambda layout: max(layout[1]))  # the first of equals
 
 
