@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(rooms base linear lattice mesh tiles progressive openmesh solver topology forms conformal uv evening structure tiling moduli plane islands multiresolution)
+set(rooms base linear lattice mesh tiles progressive openmesh solver topology forms conformal uv evening structure tiling turns moduli plane islands multiresolution)
 list(TRANSFORM rooms REPLACE "(.+)" "$<TARGET_OBJECTS:holomorph_\\1>" OUTPUT_VARIABLE objects)
 add_library(holomorph STATIC ${objects})
 set_target_properties(holomorph PROPERTIES LINKER_LANGUAGE CXX)

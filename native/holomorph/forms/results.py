@@ -24,6 +24,7 @@ from ..quality.quality import Quality
 from ..tiling.tiling import Tiler
 from ..tiling.tiling_options import Poles, asked_poles
 from ..tiling.tilings import Tiling
+from ..tiling.turned import TurnedTiler, check_fits
 from .solver_report import Residuals, SolverReport
 
 PLACING = 0.6  # part of the work on a tiling, for finding the poles
@@ -112,6 +113,7 @@ class Structure(Value):
         size_counts: bool = False,
         allowed: ArrayLike | None = None,
         moves: Mapping[int, int] | None = None,
+        turns: int = 1,
         surface: Surface | None = None,
         progress: Progress | None = None,
     ) -> Tiling:
@@ -141,12 +143,24 @@ class Structure(Value):
         allowed, surface : as in `tiler`
         moves : {index of a pole in the tiling: vertex} that it is moved to after the rounding, see `Tiler.move_poles`
 
+        turns : 2, 4 or 6 where the texture looks the same after a half, a quarter or a sixth turn: then the two sides
+            of a cut may turn, too. There are no poles; cones, where three or five squares meet, make the density more
+            even. The choices of poles, lattice, turn, boundary and max_added do not go with it
+
         Raises TopologyError for poles that do not fit, for fewer tiles than the surface needs (names how many are
         enough), and for more added distortion than `max_added` (names what can be had). Poles are kept.
         """
         evenness = checked_evenness(evenness)
         tiles = tiles if density is None else self._tiles_of(density, tiles)
         placing, rounding = scaled(progress, 0.0, PLACING), scaled(progress, PLACING, 1.0)
+        if turns != 1:
+            chosen = {"poles": (poles or "auto", "auto"), "turn": (turn, 0.0), "boundary": (boundary, "automatic")}
+            chosen |= {"lattice": (lattice, "square"), "max_added": (max_added, None), "allowed": (allowed, None)}
+            check_fits(turns, chosen | {"moves": (moves or None, None)})
+            tiler = self._turned_tiler(surface, turns, direction, placing)
+            key = tiler, tiles, evenness
+            made = self._tilings.get(key) or tiler.tile(tiles, evenness=evenness, progress=rounding)
+            return self._tilings.keep(key, made)
         options = {"boundary": boundary, "allowed": allowed, "evened": evenness > 0, "surface": surface}
         tiler = self.tiler(poles, **options, progress=placing)
         rounded = {"tiles": tiles, "lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn}
@@ -197,6 +211,14 @@ class Structure(Value):
         if tiler is None:
             options = {"boundary": boundary, "allowed": allowed, "evened": bool(evened), "threads": self._threads}
             tiler = Tiler(surface, poles, **options, progress=progress)
+        return self._tilers.keep(key, tiler)
+
+    def _turned_tiler(self, surface, turns, direction, progress):
+        surface = self._component if surface is None else surface
+        key = surface, turns, _hashable(direction)
+        tiler = self._tilers.get(key)
+        if tiler is None:
+            tiler = TurnedTiler(surface, turns, direction=direction, threads=self._threads, progress=progress)
         return self._tilers.keep(key, tiler)
 
     @cached_property

@@ -30,6 +30,7 @@ def automatic_map(
     turn: float | None = None,
     max_turn: float = 0.2,
     max_added: float | None = None,
+    turns: int = 1,
     evenness: float = EVENNESS,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -47,7 +48,7 @@ def automatic_map(
         call with other tiles, lattice or direction is quick
     main : "automatic"; "seamless" for a tiling in any case; "untiled" for the best of the other maps; "balanced" for a
         map of forms, as when something about the structure was chosen
-    tiles, poles, lattice, boundary, turn, max_turn, max_added : of tilings, as in `Structure.tile`
+    tiles, poles, lattice, boundary, turn, max_turn, max_added, turns : of tilings, as in `Structure.tile`
     density, density_tolerance : tiles per unit of area, and the relative amount by which whole tiles may miss it; where
         they miss it by more, the map is not a tiling
     direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
@@ -68,6 +69,7 @@ def automatic_map(
     """
     check_type(surface, Surface)
     options = {"lattice": lattice, "boundary": boundary, "turn": turn, "max_turn": max_turn, "max_added": max_added}
+    options |= {"turns": turns}
     request = Request(surface, structure, main, poles, evenness, direction, options=options)
     size = SizePolicy.of([surface], tiles, density, density_tolerance)
     (((made,), _),) = map_objects([[request]], size, threads, progress)

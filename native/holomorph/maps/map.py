@@ -96,7 +96,7 @@ class Map(Value):
             return (self.islands or self.mixed).cost
         lengths = self.structure._triangulation.edge_lengths
         seams = 0.0 if self.tiling else lengths[self.structure.seams].sum() / math.sqrt(self.surface.area)
-        return cost(self.quality, len(self.poles), soft_seams=float(seams))
+        return cost(self.quality, len(self.poles), soft_seams=float(seams), cones=len(self.cones))
 
     @property
     def verdict(self) -> Verdict:
@@ -123,12 +123,34 @@ class Map(Value):
         is_log = not self.islands and isinstance(self.structure, PoleStructure)
         return self._of_surface(self.structure._native.poles() if is_log else np.empty(0, np.int32))
 
+    @property
+    def turns(self) -> int:
+        """2, 4 or 6 where the UVs may turn by this part of a full turn across a seam, see `Tiling.turns`; else 1."""
+        return self.tiling.turns if self.tiling else 1
+
+    @property
+    def cones(self) -> Integers:
+        """(k,) vertices with another angle around them than elsewhere, of a tiling that turns."""
+        return self.tiling.cones if self.tiling else np.empty(0, np.int64)
+
+    @property
+    def cone_angles(self) -> Reals:
+        """(k,) the angles around `cones` in full turns: 3/4 where three squares meet."""
+        return self.tiling.cone_angles if self.tiling else np.empty(0)
+
+    @property
+    def jumps(self) -> Integers:
+        """(#S, 3) turns and translations across `seams`, of a tiling that turns, see `Tiling.jumps`."""
+        return self.tiling.jumps if self.tiling else np.empty((0, 3), np.int64)
+
     @cached_property
     def tiled(self) -> TiledSurface:
         """The surface under the tiling, where things are placed in tiles. Raises TopologyError for a map that is
         none."""
         if not self.tiling:
             raise TopologyError(f'the map is not a tiling: its kind is {self.kind!r}; main="seamless" makes one')
+        if self.turns != 1:
+            raise TopologyError("nothing is placed in the tiles of a tiling that turns yet: take turns=1")
         return TiledSurface(self.surface, self.uv, self.tiling.lattice)
 
     @property

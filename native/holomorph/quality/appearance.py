@@ -19,13 +19,14 @@ ROUNDING = 1e-6  # part of the map: less of an overlap is none
 SEAM = 0.5  # for a seam as long as the square root of the area, where it is smooth
 HARD_SEAM = 0.03  # and along hard edges
 POLE = 0.03
+CONE = 0.005  # of a tiling that turns: three or five squares meet
 TURN = 3.0  # for a radian by which rows of squares that could run round a tube turn away from that, in the mean
 
 
-def cost(quality: "Quality", poles: int = 0, soft_seams: float = 0.0, hard_seams: float = 0.0) -> float:
+def cost(quality: "Quality", poles: int = 0, soft_seams: float = 0.0, hard_seams: float = 0.0, cones: int = 0) -> float:
     """The cost of a map to the eye; infinite for one with collapsed parts.
 
-    poles : how many
+    poles, cones : how many
     soft_seams, hard_seams : lengths over the square root of the area
     """
     ratio = quality.density_ratio
@@ -34,4 +35,4 @@ def cost(quality: "Quality", poles: int = 0, soft_seams: float = 0.0, hard_seams
     squares = math.log(ratio) + SHEAR * (quality.mean_angle - 1)
     overlapping = quality.overlapping_part or 0.0
     lost = FLIPPED * quality.flipped_part + OVERLAPPING * overlapping + OVERLAPS * (overlapping > ROUNDING)
-    return squares + lost + SEAM * soft_seams + HARD_SEAM * hard_seams + POLE * poles
+    return squares + lost + SEAM * soft_seams + HARD_SEAM * hard_seams + POLE * poles + CONE * cones

@@ -1,8 +1,10 @@
-"""Seamless tilings: UV maps whose jumps all are translations of the texture, of even density."""
+"""Seamless tilings: UV maps of even density whose jumps all are symmetries of the texture."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+import numpy as np
 
 from ..core.array_types import Complexes, Integers, Reals
 from ..core.value import Value, counted
@@ -51,6 +53,11 @@ class Tiling(Value):
     quality : `Quality` on the triangles of the surface, diagonals flipped away from the poles
     seams : (#S, 2) vertices of the edges where the UVs jump
     lattice : (2, 2) reals, whose columns are the translations by which they may
+    turns : 1 where all jumps are translations; else 2, 4 or 6: they may also turn by a half, a quarter or a sixth
+    cones : (k,) vertices around which a tiling that turns has another angle than elsewhere
+    cone_angles : (k,) these, in full turns: 3/4 where three squares meet
+    jumps : (#S, 3) integers, of a tiling that turns: from the triangle on the left of a seam to that on its right the
+        UVs are turned so many times, and moved by so much, in vectors of the lattice
     """
 
     uv: Reals
@@ -67,9 +74,14 @@ class Tiling(Value):
     quality: Quality
     seams: Integers
     lattice: Reals
+    turns: int = 1
+    cones: Integers = field(default_factory=lambda: np.empty(0, np.int64))
+    cone_angles: Reals = field(default_factory=lambda: np.empty(0))
+    jumps: Integers = field(default_factory=lambda: np.empty((0, 3), np.int64))
 
     def _facts(self):
-        size = f"{self.tiles:.4g} tiles, {counted(len(self.poles), 'pole')}"
+        special = counted(len(self.poles), "pole") if self.turns == 1 else counted(len(self.cones), "cone")
+        size = f"{self.tiles:.4g} tiles, {special}"
         return [size, f"size range {self.size_range:.4g}", f"angle distortion {self.quality.mean_angle:.4g}"]
 
     @property

@@ -13,6 +13,7 @@
 #include "tiles/relief.h"
 #include "tiles/sharp_zones.h"
 #include "tiling/tiling.h"
+#include "turns/turned_map.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -56,6 +57,35 @@ Tiling move_poles(const Placement& placement, const Tiling& made, const std::vec
 
 Tiling evened(const Tiling& made, double evenness, int threads, const py::object& progress) {
   return unlocked(threads, progress, [&](Execution& execution) { return tiling::evened(made, evenness, execution); });
+}
+
+turns::PlacedCones place_cones(const std::shared_ptr<mesh::Surface>& surface, int turns, double price,
+                               std::optional<std::array<double, 3>> up, int threads, const py::object& progress) {
+  const turns::ConeOptions options{turns, price, up};
+  return unlocked(threads, progress,
+                  [&](Execution& execution) { return turns::PlacedCones(surface, options, execution); });
+}
+
+std::pair<py::array, py::array> turned_map(const turns::PlacedCones& placed, double tiles, double evenness, int threads,
+                                           const py::object& progress) {
+  const turns::TurnedMap made =
+      unlocked(threads, progress, [&](Execution& execution) { return placed.turned_map(tiles, evenness, execution); });
+  Eigen::Matrix<std::int64_t, Eigen::Dynamic, 4, Eigen::RowMajor> jumps(std::ssize(made.jumps), 4);
+  for (Eigen::Index i = 0; i < jumps.rows(); ++i) {
+    const turns::Jump& jump = made.jumps[i];
+    jumps.row(i) << jump.edge, jump.turn, jump.translation[0], jump.translation[1];
+  }
+  return {copy(made.uv), copy(jumps)};
+}
+
+void bind_turned_map(py::module_& m) {
+  using turns::PlacedCones;
+  py::class_<PlacedCones>(m, "PlacedCones")
+      .def("cones", [](const PlacedCones& placed) { return copy(placed.cones()); })
+      .def("missing", [](const PlacedCones& placed) { return copy(placed.missing()); });
+  m.def("place_cones", &place_cones, "surface"_a, py::kw_only(), "turns"_a, "price"_a, "up"_a, "threads"_a,
+        "progress"_a);
+  m.def("turned_map", &turned_map, "placed"_a, py::kw_only(), "tiles"_a, "evenness"_a, "threads"_a, "progress"_a);
 }
 
 void bind_tiling(py::module_& m) {
@@ -252,6 +282,7 @@ void bind_tiles(py::module_& m) {
 
 void bind_tilings(py::module_& m) {
   bind_tiling(m);
+  bind_turned_map(m);
   bind_tiles(m);
 }
 

@@ -87,18 +87,91 @@ class Solvers {
   std::shared_ptr<solver::LaplaceSolver> u_, v_;
 };
 
+// The solver for functions that turn from corner to corner: u and v are unknowns of one system.
+class TurnedSolver {
+ public:
+  TurnedSolver(const mesh::Surface& surface, const Kept& kept) : surface_(surface), kept_(kept) {
+    place_.assign(surface.vertex_count, 0);
+    for (const int v : kept.u) place_[v] = -1;
+    for (int& place : place_) {
+      if (place >= 0) place = count_++;
+    }
+  }
+
+  void make(const Array<double>& edge_weights) {
+    std::vector<Eigen::Triplet<double>> entries;
+    std::vector<char> done(edge_weights.size(), 0);
+    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        const int edge = surface_.triangle_edges[t][i];
+        if (done[edge]) continue;
+        done[edge] = 1;
+        const int j = (i + 1) % 3;
+        add(place_[surface_.triangles[t][i]], place_[surface_.triangles[t][j]], edge_weights[edge],
+            std::conj(kept_.turns[t][i]) * kept_.turns[t][j], entries);
+      }
+    }
+    Eigen::SparseMatrix<double> lower(2 * count_, 2 * count_);
+    lower.setFromTriplets(entries.begin(), entries.end());
+    factor_.compute(lower, {});
+  }
+
+  Function precondition(const Function& gradient) {
+    Eigen::MatrixXd b(2 * count_, 1);
+    for (std::size_t v = 0; v < gradient.size(); ++v) {
+      if (place_[v] >= 0) b(2 * place_[v], 0) = gradient[v].real(), b(2 * place_[v] + 1, 0) = gradient[v].imag();
+    }
+    const Eigen::MatrixXd x = factor_.solve(b);
+    Function result(gradient.size(), 0.0);
+    for (std::size_t v = 0; v < gradient.size(); ++v) {
+      if (place_[v] >= 0) result[v] = kInverse * Complex(x(2 * place_[v], 0), x(2 * place_[v] + 1, 0));
+    }
+    return result;
+  }
+
+ private:
+  // weight |turn y_b - y_a|^2
+  static void add(int a, int b, double weight, Complex turn, std::vector<Eigen::Triplet<double>>& entries) {
+    for (const int v : {a, b}) {
+      if (v < 0) continue;
+      for (int i = 0; i < 2; ++i) entries.emplace_back(2 * v + i, 2 * v + i, weight);
+    }
+    if (a < 0 || b < 0 || a == b) return;
+    if (a < b) std::swap(a, b), turn = std::conj(turn);
+    const double x = -weight * turn.real(), y = -weight * turn.imag();
+    entries.emplace_back(2 * a, 2 * b, x);
+    entries.emplace_back(2 * a + 1, 2 * b + 1, x);
+    if (y == 0) return;
+    entries.emplace_back(2 * a, 2 * b + 1, -y);
+    entries.emplace_back(2 * a + 1, 2 * b, y);
+  }
+
+  const mesh::Surface& surface_;
+  const Kept& kept_;
+  std::vector<int> place_;  // #V, -1 where the function stays 0
+  int count_ = 0;
+  solver::SparseCholesky factor_;
+};
+
 void clear(Function& function, const Kept& kept) {
   for (const int v : kept.u) function[v].real(0);
   for (const int v : kept.v) function[v].imag(0);
 }
 
 // The inverse of a Laplacian on the free vertices of a patch.
-Precondition inverse(solver::SparseCholesky& factor, int free_count) {
-  return [&factor, free_count](const Function& gradient) {
+Precondition inverse(solver::SparseCholesky& factor, int free_count, bool turns) {
+  return [&factor, free_count, turns](const Function& gradient) {
+    Function result(gradient.size(), 0.0);
+    if (turns) {
+      Eigen::MatrixXd b(2 * free_count, 1);
+      for (int v = 0; v < free_count; ++v) b(2 * v, 0) = gradient[v].real(), b(2 * v + 1, 0) = gradient[v].imag();
+      const Eigen::MatrixXd x = factor.solve(b);
+      for (int v = 0; v < free_count; ++v) result[v] = kInverse * Complex(x(2 * v, 0), x(2 * v + 1, 0));
+      return result;
+    }
     Eigen::MatrixXd B(free_count, 2);
     for (int v = 0; v < free_count; ++v) B.row(v) << gradient[v].real(), gradient[v].imag();
     const Eigen::MatrixXd X = factor.solve(B);
-    Function result(gradient.size(), 0.0);
     for (int v = 0; v < free_count; ++v) result[v] = kInverse * Complex(X(v, 0), X(v, 1));
     return result;
   };
@@ -123,11 +196,12 @@ double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, do
     }
     return here;
   };
-  const Kept here{{}, kept_here(kept.u), kept_here(kept.v)};
+  const Kept here{{}, kept_here(kept.u), kept_here(kept.v), {}};
   solver::SparseCholesky factor;
   const auto make = [&](const Function& at) -> Precondition {
-    factor.compute(patch.energy.laplacian(at, lambda, patch.free_count), {});
-    return inverse(factor, patch.free_count);
+    const Eigen::SparseMatrix<double> lower = patch.energy.laplacian(at, lambda, patch.free_count);
+    factor.compute(lower, {});
+    return inverse(factor, patch.free_count, lower.rows() > patch.free_count);
   };
   Descent descent(
       patch.energy, lambda, make, [&](Function& f) { clear(f, here); }, execution.workers());
@@ -160,13 +234,20 @@ Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept
   const mesh::HalfEdges half_edges = mesh::half_edges(surface, execution);
   const auto method = solver::choose_method(solver_name, surface.vertex_count, 2).method;
   Solvers solvers(half_edges, method, kept);
+  TurnedSolver turned(surface, kept);
   const auto make = [&](const Function& delta) -> Precondition {
+    if (!kept.turns.empty()) {
+      turned.make(energy.edge_weights(surface, delta, lambda));
+      return [&](const Function& gradient) { return turned.precondition(gradient); };
+    }
     solvers.make(energy.edge_weights(surface, delta, lambda), execution);
     return [&](const Function& gradient) { return solvers.precondition(gradient, execution); };
   };
   Descent descent(
       energy, lambda, make, [&](Function& f) { clear(f, kept); }, execution.workers());
-  const double most_flipped = descent.begin(Function(surface.vertex_count, 0.0)).flipped;
+  const double flipped_before = descent.begin(Function(surface.vertex_count, 0.0)).flipped;
+  // Whole numbers flip triangles at the cones of a map that turns: these are turned back as well.
+  const double most_flipped = kept.turns.empty() ? flipped_before : 0;
   for (int step = 0; step < kMostSteps; ++step) {
     execution.part(kWhole * step / kMostSteps, kWhole * (step + 1) / kMostSteps);
     execution.report(0);
@@ -182,7 +263,7 @@ Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept
     flipped = turn_back(energy, kept, lambda, most_flipped, rings, delta, vertex_steps, execution);
     if (flipped > kHelps * before) break;
   }
-  return {std::move(delta), flipped - most_flipped};
+  return {std::move(delta), flipped - flipped_before};
 }
 
 }  // namespace
@@ -191,7 +272,7 @@ uv::UvArray evened(const mesh::Surface& surface, const uv::UvArray& uv, const Ke
                    Execution& execution, const std::string& solver) {
   uv::UvArray result = uv::UvArray::Zero(surface.vertex_count, 2);
   if (evenness == 0) return result;
-  const StrainEnergy energy(surface, uv, kept.poles, execution.workers());
+  const StrainEnergy energy(surface, uv, kept.poles, kept.turns, execution.workers());
   // The first weight of size with which no more area is flipped than before. If there is none, the map stays as it is.
   double most = 1, vertex_steps = kMostTurning * std::max(surface.vertex_count, kFewVertices);
   for (const double factor : kFactors) {

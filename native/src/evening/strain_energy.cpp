@@ -78,7 +78,7 @@ void StrainEnergy::Triangle::lay_out(const mesh::Surface& surface, int t, const 
 }
 
 StrainEnergy::StrainEnergy(const mesh::Surface& surface, const uv::UvArray& uv, const std::vector<int>& poles,
-                           Workers& workers)
+                           const CornerTurns& turns, Workers& workers)
     : triangles_(surface.triangles.size()) {
   std::vector<char> is_pole(surface.vertex_count, 0);
   for (const int v : poles) is_pole[v] = 1;
@@ -88,6 +88,12 @@ StrainEnergy::StrainEnergy(const mesh::Surface& surface, const uv::UvArray& uv, 
     triangle.vertices = surface.triangles[t];
     triangle.at_pole = std::ranges::any_of(triangle.vertices, [&](int v) { return is_pole[v]; });
     triangle.lay_out(surface, t, uv);
+    if (!turns.empty()) {
+      // The energy does not change where the map is turned back by what turns corner 0.
+      const Complex back = std::conj(turns[t][0]);
+      triangle.turned = {turns[t][1] * back, turns[t][2] * back};
+      triangle.a *= back, triangle.b *= back;
+    }
     // The mean of ln |a|^2 by area, which is ln of the mean size where the map is conformal.
     if (!triangle.at_pole && triangle.area > 0)
       part += {triangle.area, triangle.area * std::log(std::norm(triangle.a))};
@@ -119,7 +125,9 @@ void StrainEnergy::find_stars(int vertex_count) {
 StrainEnergy::Derivatives StrainEnergy::derivatives(const Triangle& triangle, const Function& function) {
   const auto& v = triangle.vertices;
   const auto [g1, g2] = triangle.gradients;
-  const Complex along_1 = function[v[1]] - function[v[0]], along_2 = function[v[2]] - function[v[0]];
+  const auto [turned_1, turned_2] = triangle.turned;
+  const Complex along_1 = turned_1 * function[v[1]] - function[v[0]];
+  const Complex along_2 = turned_2 * function[v[2]] - function[v[0]];
   return {triangle.a + 0.5 * (along_1 * std::conj(g1) + along_2 * std::conj(g2)),
           triangle.b + 0.5 * (along_1 * g1 + along_2 * g2)};
 }
@@ -143,6 +151,7 @@ StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambd
       const Complex g = triangle.gradients[k - 1];
       at[k] = by_a * g + by_b * std::conj(g);
       at[0] -= at[k];
+      at[k] *= std::conj(triangle.turned[k - 1]);
     }
   });
   gradient.resize(vertex_count());
@@ -166,7 +175,9 @@ double StrainEnergy::stiffness_of(const Triangle& triangle, const Function& delt
   const Derivatives map = derivatives(triangle, delta);
   const double size = std::norm(map.a), ratio = std::sqrt(std::norm(map.b) / size);
   const double stiff = stiffness(ratio, std::log(size) - triangle.log_size, triangle.lambda(lambda)) / size;
-  return triangle.area * triangle.emphasis * stiff;
+  const auto [g1, g2] = triangle.gradients;
+  const double weighed = triangle.area * triangle.emphasis * stiff * thinness({-(g1 + g2), g1, g2});
+  return triangle.at_pole ? weighed : std::min(weighed, kMostStiff * std::exp(-log_size_) * triangle.area);
 }
 
 Array<double> StrainEnergy::edge_weights(const mesh::Surface& surface, const Function& delta, double lambda) const {
@@ -178,9 +189,7 @@ Array<double> StrainEnergy::edge_weights(const mesh::Surface& surface, const Fun
     if (!(triangle.area > 0)) continue;
     const auto [g1, g2] = triangle.gradients;
     const std::array<Complex, 3> g = {-(g1 + g2), g1, g2};
-    const double most = kMostStiff * std::exp(-log_size_) * triangle.area;
-    double stiff = stiffness_of(triangle, delta, lambda) * thinness(g);
-    if (!triangle.at_pole) stiff = std::min(stiff, most);
+    const double stiff = stiffness_of(triangle, delta, lambda);
     // -grad phi_i . grad phi_j times the area is the cotangent weight of the side from i to j.
     for (int k = 0; k < 3; ++k) weights[surface.triangle_edges[t][k]] -= stiff * dot(g[k], g[(k + 1) % 3]);
   }
@@ -189,20 +198,34 @@ Array<double> StrainEnergy::edge_weights(const mesh::Surface& surface, const Fun
 
 Eigen::SparseMatrix<double> StrainEnergy::laplacian(const Function& delta, double lambda, int count) const {
   std::vector<Eigen::Triplet<double>> entries;
-  for (int v = 0; v < count; ++v) entries.emplace_back(v, v, kLeastStiff * std::exp(-log_size_) / whole_area_);
+  const bool turn = std::ranges::any_of(triangles_, [](const Triangle& t) { return t.turned != Triangle().turned; });
+  const int parts = turn ? 2 : 1;
+  for (int v = 0; v < parts * count; ++v) entries.emplace_back(v, v, kLeastStiff * std::exp(-log_size_) / whole_area_);
   for (const Triangle& triangle : triangles_) {
     if (!(triangle.area > 0)) continue;
     const auto [g1, g2] = triangle.gradients;
     const std::array<Complex, 3> g = {-(g1 + g2), g1, g2};
     const double stiff = stiffness_of(triangle, delta, lambda);
+    const std::array<Complex, 3> turns = {1, triangle.turned[0], triangle.turned[1]};
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
         const int row = triangle.vertices[i], column = triangle.vertices[j];
-        if (row >= column && row < count) entries.emplace_back(row, column, stiff * dot(g[i], g[j]));
+        if (row < column || row >= count) continue;
+        const double weight = stiff * dot(g[i], g[j]);
+        if (parts == 1) {
+          entries.emplace_back(row, column, weight);
+          continue;
+        }
+        const Complex turned = std::conj(turns[i]) * turns[j];
+        for (const int part : {0, 1}) {
+          entries.emplace_back(2 * row + part, 2 * column + part, weight * turned.real());
+          const int other = 2 * column + 1 - part;
+          if (row > column) entries.emplace_back(2 * row + part, other, (part ? 1 : -1) * weight * turned.imag());
+        }
       }
     }
   }
-  Eigen::SparseMatrix<double> result(count, count);
+  Eigen::SparseMatrix<double> result(parts * count, parts * count);
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }

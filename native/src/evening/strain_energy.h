@@ -8,12 +8,11 @@
 
 #include "base/page_allocator.h"
 #include "base/workers.h"
+#include "evening/triangle_energy.h"
 #include "mesh/surface.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::evening {
-
-using Complex = std::complex<double>;
 
 /// #V, a function u + i v on the vertices.
 using Function = Array<Complex>;
@@ -29,9 +28,9 @@ using Function = Array<Complex>;
 /// Triangles without area do not count.
 class StrainEnergy {
  public:
-  /// @param uv #C x 2; its jumps across edges are translations, so that its derivatives are one on each triangle
-  /// @param poles vertices
-  StrainEnergy(const mesh::Surface& surface, const uv::UvArray& uv, const std::vector<int>& poles, Workers& workers);
+  /// @param uv #C x 2; its jumps across edges are translations, or turns as well. @param poles vertices
+  StrainEnergy(const mesh::Surface& surface, const uv::UvArray& uv, const std::vector<int>& poles,
+               const CornerTurns& turns, Workers& workers);
 
   int vertex_count() const { return static_cast<int>(star_starts_.size()) - 1; }
 
@@ -56,7 +55,8 @@ class StrainEnergy {
   /// 2 (1 - lambda) times it and twice it. Elsewhere it grows with them.
   /// @return #E of the surface
   Array<double> edge_weights(const mesh::Surface& surface, const Function& delta, double lambda) const;
-  /// Returns the lower triangle of that Laplacian's matrix on the first `count` vertices.
+  /// Returns the lower triangle of that Laplacian's matrix on the first `count` vertices. Where functions turn from
+  /// corner to corner it is that of their real and imaginary parts, in turn, twice as large.
   Eigen::SparseMatrix<double> laplacian(const Function& delta, double lambda, int count) const;
 
   struct Patch;  // patch.h
@@ -76,10 +76,11 @@ class StrainEnergy {
   struct Triangle {
     mesh::Triple vertices;
     Complex a, b;  // the map is a z + b conj(z) + constant; z along side 0, at a pole the map itself
-    std::array<Complex, 2> gradients;  // gradients of the hat functions of corners 1 and 2
-    double area = 0;                   // 0: does not count
-    double emphasis = 1;               // by which its part of the energy is multiplied
-    double log_size = 0;               // 2 ln of the size that it is to have
+    std::array<Complex, 2> gradients;     // gradients of the hat functions of corners 1 and 2
+    std::array<Complex, 2> turned{1, 1};  // by which functions at corners 1 and 2 are turned, from corner 0
+    double area = 0;                      // 0: does not count
+    double emphasis = 1;                  // by which its part of the energy is multiplied
+    double log_size = 0;                  // 2 ln of the size that it is to have
     bool at_pole = false;
     bool keeps_shape = false, reversed = false;  // whatever its size; reversed in the plane of z
 

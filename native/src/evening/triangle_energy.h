@@ -1,7 +1,17 @@
 // The energy by which evening weighs the shear of a triangle against its size; see StrainEnergy.
 #pragma once
 
+#include <array>
+#include <complex>
+#include <vector>
+
 namespace holomorph::evening {
+
+using Complex = std::complex<double>;
+
+/// #T, for each corner the complex number of modulus 1 by which a function at its vertex is turned there. Across an
+/// edge all three of a triangle differ by one turn. Empty: by none.
+using CornerTurns = std::vector<std::array<Complex, 3>>;
 
 /// The energy of a triangle of area 1 on which the map is a z + b conj(z). `by_a` and `by_b` are its derivatives by |a|
 /// and |b|, divided by |a| and |b|.

@@ -29,11 +29,12 @@ ROOM_BELOW = {
     "evening": ["uv"],
     "structure": ["conformal", "uv"],
     "tiling": ["structure", "evening", "lattice"],
+    "turns": ["tiling"],
     "moduli": ["conformal", "lattice"],
     "plane": ["structure"],
     "islands": ["plane", "evening"],
     "multiresolution": ["structure"],
-    "bindings": ["tiles", "tiling", "moduli", "islands", "multiresolution"],
+    "bindings": ["tiles", "turns", "moduli", "islands", "multiresolution"],
 }
 # The rooms of the package, each of which imports only earlier ones. What lies in the package itself begins with all.
 PACKAGE_ROOMS = (

@@ -40,12 +40,12 @@ mesh::Surface renumbered(const mesh::Surface& surface, const std::vector<int>& o
   return mesh::make_surface(progressive::triangle_polygons(std::move(vertices), triangles), execution);
 }
 
-CoarseLevel level_of(const mesh::Surface& surface, const std::vector<int>& order, Execution& execution) {
+CoarseLevel level_of(const mesh::Surface& surface, const std::vector<int>& order, int triangles, Execution& execution) {
   auto all = std::make_shared<mesh::Surface>(renumbered(surface, order, execution));
-  if (all->triangles.size() <= kLevelTriangles) return {std::move(all), order, inverse(order)};
+  if (static_cast<int>(all->triangles.size()) <= triangles) return {std::move(all), order, inverse(order)};
   const Execution::Within within(execution);
   const auto levels = progressive::progressive_mesh(*all, progressive::Order::quadric, execution);
-  const int splits = progressive::split_count(levels, kLevelTriangles);
+  const int splits = progressive::split_count(levels, triangles);
   auto level = std::make_shared<mesh::Surface>(mesh::make_surface(progressive::level(levels, splits), execution));
   std::vector<int> vertex, collapsed(surface.vertex_count);
   for (int v = 0; v < level->vertex_count; ++v) vertex.push_back(order[levels.vertex_index[v]]);
@@ -73,11 +73,11 @@ std::vector<std::vector<int>> large_polygons(const mesh::Surface& surface, const
 
 }  // namespace
 
-CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution) {
+CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution, int triangles) {
   if (surface->intrinsic()) return the_surface_itself(surface);
   try {
     // Vertices in an order of space, so that the level does not depend on the order of the mesh's elements.
-    CoarseLevel level = level_of(*surface, mesh::spatial_order(surface->polygons.vertices), execution);
+    CoarseLevel level = level_of(*surface, mesh::spatial_order(surface->polygons.vertices), triangles, execution);
     level.large_polygons = large_polygons(*surface, level.vertex);
     return level;
   } catch (const InvalidMesh&) {  // edges with the same ends in any triangulation of its polygons: it has no levels

@@ -26,6 +26,7 @@ struct CoarseLevel {
 /// Makes the coarse level of a surface. Its vertices are numbered by their positions, so that the poles do not depend
 /// on the surface's numbers. A small surface keeps all its triangles. An intrinsic surface, or one without a
 /// progressive mesh, is its own level. @throws Cancelled
-CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution);
+CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution,
+                         int triangles = kLevelTriangles);
 
 }  // namespace holomorph::tiling

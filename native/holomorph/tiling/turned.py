@@ -1,0 +1,119 @@
+"""Tilings whose sides of a cut may also turn, by the symmetry of the texture: cones take the place of poles."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import _native
+from ..core import arrays
+from ..core.array_types import Progress
+from ..core.value import quoted
+from ..mesh.checks import check_threads, checked_evenness, only_component, real_number
+from ..mesh.surface import Surface
+from ..quality.quality import Quality
+from .direction import UP, UPRIGHT
+from .tiling_options import LATTICES
+from .tilings import Rounding, Tiling
+
+TURNS = (1, 2, 4, 6)
+LATTICE = {2: "square", 4: "square", 6: "hex"}  # of which a turn by this part of a full one is a symmetry
+PRICE = 1e-3  # of a cone: what it is to take off the mean square of the logarithm of the scale
+LEAST_TILES, TILES_PER_HANDLE = 100, 64  # by default
+
+
+class TurnedTiler:
+    """The cones of a surface, and what turned tilings with them are made of; changing tiles or evenness is quick.
+    Immutable.
+
+    Parameters
+    ----------
+    surface : Surface with positions, connected
+    turns : 2, 4 or 6: the texture looks the same after a half, a quarter or a sixth turn
+    direction : "upright" for rows that run level; a (3,) vector that v runs along, as far as it can; None for any
+    threads, progress : as in `conformal_structure`
+
+    Raises ValueError for other turns; TopologyError for a surface without positions; SolverError; Cancelled.
+    """
+
+    def __init__(
+        self,
+        surface: Surface,
+        turns: int,
+        *,
+        direction: ArrayLike | str | None = UPRIGHT,
+        threads: int | None = 0,
+        progress: Progress | None = None,
+    ) -> None:
+        if turns not in LATTICE:
+            raise ValueError(f"turns is {quoted(turns)}; one of {', '.join(map(str, TURNS))} is needed")
+        self._surface, self._component, self._threads = surface, only_component(surface), check_threads(threads or None)
+        self._turns, self._placed = (
+            turns,
+            _native.place_cones(
+                self._component._native,
+                turns=turns,
+                price=PRICE,
+                up=_upwards(direction),
+                threads=self._threads,
+                progress=progress,
+            ),
+        )
+
+    def tile(self, tiles: float | None = None, *, evenness: float = 0.0, progress: Progress | None = None) -> Tiling:
+        """A `Tiling` with about this number of tiles; default: one that suits the genus."""
+        evenness = checked_evenness(evenness)
+        usual = max(LEAST_TILES, TILES_PER_HANDLE * self._component.genus)
+        tiles = usual if tiles is None else real_number(tiles, "tiles", positive=True)
+        uv, jumps = _native.turned_map(
+            self._placed, tiles=tiles, evenness=evenness, threads=self._threads, progress=progress
+        )
+        lattice = np.array([[z.real, z.imag] for z in LATTICES[LATTICE[self._turns]]]).T.astype(float)
+        uv = arrays.frozen(np.ascontiguousarray(uv @ lattice.T) if self._turns == 6 else uv)
+        edges, missing = self._component._native.edges, self._placed.missing()
+        return Tiling(
+            uv=uv,
+            periods=arrays.frozen(np.empty((0, 2), np.int64)),
+            poles=arrays.frozen(np.empty(0, np.int64)),
+            residues=arrays.frozen(np.empty(0, complex)),
+            zeros=(arrays.frozen(np.empty(0, np.int64)), arrays.frozen(np.empty(0, np.int64))),
+            evenness=evenness,
+            added_distortion=1.0,
+            beltrami_rms=0.0,
+            optimal_size_range=1.0,
+            rounding=Rounding(2 * len(missing), 1, 0, 1.0),
+            tiles=tiles,
+            quality=Quality.of(self._component._native, uv, self._threads),
+            seams=self._of_surface(edges[jumps[:, 0]]),
+            lattice=arrays.frozen(lattice),
+            turns=self._turns,
+            cones=self._of_surface(self._placed.cones()),
+            cone_angles=arrays.frozen(1 - missing / self._turns),
+            jumps=arrays.frozen(jumps[:, 1:]),
+        )
+
+    def _of_surface(self, vertices):
+        same = self._component is self._surface
+        return arrays.frozen(vertices if same else self._component.vertex_index[vertices])
+
+
+def check_fits(turns: int, options: dict[str, Any]) -> None:
+    """Raises ValueError for options that a turned tiling does not have, where they are not those by default."""
+    for name, (given, usual) in options.items():
+        if isinstance(given, np.ndarray) or given not in (usual, None):
+            raise ValueError(f"{name} is {quoted(given)}; a tiling that turns has no such choice: take turns=1")
+
+
+def _upwards(direction):
+    if direction is None:
+        return None
+    if isinstance(direction, str):
+        if direction != UPRIGHT:
+            raise ValueError(f'direction is {quoted(direction)}; "{UPRIGHT}", three numbers or None is needed')
+        return list(UP)
+    vector = arrays.numbers(direction, "direction")
+    if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
+        raise ValueError(f"direction is {quoted(direction)}; three numbers, not all 0, are needed")
+    return (vector / np.linalg.norm(vector)).tolist()

@@ -1,0 +1,396 @@
+#include "turns/cones.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <tuple>
+
+#include "turns/level_field.h"
+
+namespace holomorph::turns {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Point = std::array<double, 3>;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr int kCandidates = 250, kExtrema = 80;  // that cones may be at, and of these the most where u is extreme
+constexpr int kMostMoves = 400;
+constexpr double kDouble = 3;              // price of a cone of two k-th turns over that of one
+constexpr double kHandles = 0.3;           // weight of the square of what handles turn beyond whole k-th turns
+constexpr double kNear = 0.06;             // roots of the area: opposite cones of a field that are nearer vanish
+constexpr int kAround = 12, kOthers = 60;  // candidates around a cone in a round, and elsewhere
+constexpr double kGain = 1e-9;             // a move lowers the cost by more
+// Rounds: the distance of candidates from their cone, in spacings of the first ones; part of kHandles.
+struct Round {
+  double reach, handles;
+};
+constexpr Round kFromCurvature[] = {{1.2, 0.1}, {0.6, 0.15}, {0.3, 0.25}, {0.6, 0.5}, {0.3, 1}};
+constexpr Round kFromField[] = {{0.5, 0.3}, {0.3, 1}, {0.3, 1}};
+constexpr Round kFromLevel[] = {{0.5, 0.5}, {0.3, 1}};
+constexpr double kLevels[] = {0.1, 0.3, 1};  // weights with which fields are pulled level
+constexpr unsigned kSeeds[] = {1, 2};        // of the starts from curvature
+
+double squared_distance(const Point& a, const Point& b) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sum;
+}
+
+// The price of a cone, over that of one k-th turn.
+double price_of(int n) {
+  const int size = std::abs(n);
+  return size == 0 ? 0 : size == 1 ? 1 : kDouble;
+}
+
+class Search {
+ public:
+  Search(const mesh::Surface& surface, const Net& net, const ConeOptions& options)
+      : points_(surface.polygons.vertices), net_(net), options_(options), laplace_(net), loops_(dual_loops(net)) {
+    weights_ = VectorXd(net.vertex_count());
+    for (int v = 0; v < net.vertex_count(); ++v) weights_[v] = net.vertex_area[v] / net.whole_area;
+    VectorXd defect = VectorXd::Zero(net.vertex_count());
+    double sum = 0;
+    for (int v = 0; v < net.vertex_count(); ++v) {
+      if (net.first[v] < 0) continue;
+      defect[place_of(net, v)] += net.defect[v] + (net.hole[v] == v ? 2 * kPi : 0);
+      sum += net.defect[v] + (net.hole[v] == v ? 2 * kPi : 0);
+    }
+    total_ = static_cast<int>(std::lround(options.k * sum / (2 * kPi)));
+    u0_ = laplace_.solve(-defect);
+    most_ = options.k == 1 ? 0 : options.k == 2 ? 1 : 2;
+    least_ = options.k == 1 ? -1 : -2;
+    spacing_ = std::sqrt(net.whole_area / kCandidates);
+    find_spread();
+  }
+
+  Cones from_field(double level, const std::array<double, 3>& up) {
+    std::vector<int> missing = cones_of_field(net_, points_, options_.k, up, level);
+    annihilate(missing);
+    return from(missing, kFromField);
+  }
+
+  Cones from_level(const std::vector<int>& missing) { return from(missing, kFromLevel); }
+
+  Cones from_curvature(unsigned seed) {
+    random_.seed(seed);
+    begin(spread_, nullptr);
+    for (const double part : {0.1, 0.3, 1.0}) search(part, 0.1);
+    return refined(kFromCurvature);
+  }
+
+ private:
+  template <class Rounds>
+  Cones from(const std::vector<int>& missing, const Rounds& rounds) {
+    random_.seed(1);
+    std::vector<int> candidates = spread_;
+    for (int v = 0; v < net_.vertex_count(); ++v) {
+      if (missing[v] != 0) candidates.push_back(v);
+    }
+    begin(std::move(candidates), &missing);
+    search(1, rounds[0].handles);
+    return refined(rounds);
+  }
+
+  bool is_hole(int v) const { return net_.hole[v] == v; }
+  // Cones lie inside, and holes at their places.
+  bool is_place(int v) const { return net_.first[v] >= 0 && place_of(net_, v) == v; }
+
+  // Farthest points, and the vertices where u without cones is extreme: the tips.
+  void find_spread() {
+    std::vector<int> extreme;
+    std::vector<double> highest(net_.vertex_count(), -kInfinite), lowest(net_.vertex_count(), kInfinite);
+    for (int side = 0; side < net_.side_count(); ++side) {
+      const double value = u0_(net_.head[side], 0);
+      highest[net_.tail[side]] = std::max(highest[net_.tail[side]], value);
+      lowest[net_.tail[side]] = std::min(lowest[net_.tail[side]], value);
+    }
+    for (int v = 0; v < net_.vertex_count(); ++v) {
+      if (is_place(v) && (u0_(v, 0) >= highest[v] || u0_(v, 0) <= lowest[v])) extreme.push_back(v);
+    }
+    std::stable_sort(extreme.begin(), extreme.end(),
+                     [&](int a, int b) { return std::abs(u0_(a, 0)) > std::abs(u0_(b, 0)); });
+    if (extreme.size() > kExtrema) extreme.resize(kExtrema);
+    spread_ = std::move(extreme);
+    for (int v = 0; v < net_.vertex_count(); ++v) {
+      if (is_hole(v)) spread_.push_back(v);
+    }
+    std::vector<double> distance(net_.vertex_count(), kInfinite);
+    int farthest = -1;
+    for (int v = 0; v < net_.vertex_count() && farthest < 0; ++v) {
+      if (is_place(v)) farthest = v;
+    }
+    for (int n = 0; n < kCandidates - kExtrema && farthest >= 0; ++n) {
+      spread_.push_back(farthest);
+      const Point& last = points_[farthest];
+      farthest = -1;
+      for (int v = 0; v < net_.vertex_count(); ++v) {
+        distance[v] = std::min(distance[v], squared_distance(points_[v], last));
+        if (is_place(v) && distance[v] > 0 && (farthest < 0 || distance[v] > distance[farthest])) farthest = v;
+      }
+    }
+  }
+
+  // Pairs of opposite cones that are near, nearest first, vanish or become one.
+  void annihilate(std::vector<int>& missing) const {
+    const double near = kNear * kNear * net_.whole_area;
+    for (;;) {
+      std::vector<int> cones;
+      for (int v = 0; v < net_.vertex_count(); ++v) {
+        if (missing[v] != 0 && !is_hole(v)) cones.push_back(v);
+      }
+      std::tuple<double, int, int> best{near, -1, -1};
+      for (const int a : cones) {
+        for (const int b : cones) {
+          if (missing[a] > 0 && missing[b] < 0) best = std::min(best, {squared_distance(points_[a], points_[b]), a, b});
+        }
+      }
+      const auto [distance, a, b] = best;
+      if (a < 0) return;
+      missing[a] += missing[b];
+      missing[b] = 0;
+    }
+  }
+
+  // Takes candidates, with Green's functions and the quadratic form; @param missing #V cones, none: placed by greed
+  void begin(std::vector<int> candidates, const std::vector<int>* missing) {
+    set(std::move(candidates));
+    n_.assign(places_.size(), 0);
+    int left = total_;
+    for (std::size_t i = 0; missing && i < places_.size(); ++i) {
+      n_[i] = (*missing)[places_[i]];
+      left -= n_[i];
+    }
+    VectorXd u = u0_.col(0);
+    for (std::size_t i = 0; i < n_.size(); ++i) u += n_[i] * G_.col(static_cast<Eigen::Index>(i));
+    for (; left != 0; left -= left > 0 ? 1 : -1) {
+      const int sign = left > 0 ? 1 : -1;
+      int best = -1;
+      double least = kInfinite;
+      for (std::size_t i = 0; i < n_.size(); ++i) {
+        if (!may_be(i, n_[i] + sign)) continue;
+        const double cost = (u + sign * G_.col(static_cast<Eigen::Index>(i))).cwiseAbs2().dot(weights_);
+        if (cost < least) least = cost, best = static_cast<int>(i);
+      }
+      if (best < 0) throw SolverError("no cones fit this surface: it has too few vertices");
+      n_[best] += sign;
+      u += sign * G_.col(best);
+    }
+  }
+
+  bool may_be(std::size_t i, int n) const { return is_hole(places_[i]) || (n <= most_ && n >= least_); }
+
+  void set(std::vector<int> candidates) {
+    std::sort(candidates.begin(), candidates.end());
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    places_ = std::move(candidates);
+    const auto count = static_cast<Eigen::Index>(places_.size());
+    MatrixXd B = MatrixXd::Zero(net_.vertex_count(), count);
+    for (Eigen::Index i = 0; i < count; ++i) B(places_[i], i) = 2 * kPi / options_.k;
+    G_ = laplace_.solve(B);
+    const MatrixXd weighted = weights_.asDiagonal() * G_;
+    Q_ = G_.transpose() * weighted;
+    b_ = -(weighted.transpose() * u0_.col(0));
+    flux_ = fluxes(G_);
+    turning_ = fluxes(u0_).col(0);
+    for (std::size_t l = 0; l < loops_.size(); ++l) {
+      for (const int side : loops_[l]) turning_[static_cast<Eigen::Index>(l)] += net_.transport[side];
+    }
+  }
+
+  MatrixXd fluxes(const MatrixXd& functions) const {
+    MatrixXd result = MatrixXd::Zero(static_cast<Eigen::Index>(loops_.size()), functions.cols());
+    for (std::size_t l = 0; l < loops_.size(); ++l) {
+      for (const int side : loops_[l])
+        result.row(static_cast<Eigen::Index>(l)) +=
+            net_.weight[side] * (functions.row(net_.head[side]) - functions.row(net_.tail[side]));
+    }
+    return result;
+  }
+
+  // Unit moves n_i + 1, n_j - 1, and jumps of a whole cone, the best of all while it lowers the cost.
+  void search(double price_part, double handles_part) {
+    const double kappa = kHandles * handles_part, unit = 2 * kPi / options_.k;
+    const double price = options_.price * price_part;
+    const auto count = static_cast<Eigen::Index>(places_.size());
+    const MatrixXd Q = Q_ + kappa * flux_.transpose() * flux_;
+    const VectorXd diagonal = Q.diagonal();
+    VectorXd n(count), r(count), up(count), down(count);
+    for (int move = 0; move < kMostMoves; ++move) {
+      for (Eigen::Index i = 0; i < count; ++i) n[i] = n_[i];
+      VectorXd b = b_;
+      if (!loops_.empty()) {
+        const VectorXd turned = turning_ + flux_ * n;
+        b -= kappa * flux_.transpose() * (turning_ - unit * (turned / unit).array().round().matrix());
+      }
+      r = Q * n - b;
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const double p = is_hole(places_[i]) ? 0 : price;
+        up[i] = may_be(i, n_[i] + 1) ? 2 * r[i] + diagonal[i] + p * (price_of(n_[i] + 1) - price_of(n_[i])) : kInfinite;
+        down[i] =
+            may_be(i, n_[i] - 1) ? -2 * r[i] + diagonal[i] + p * (price_of(n_[i] - 1) - price_of(n_[i])) : kInfinite;
+      }
+      double best = -kGain;
+      Eigen::Index from = -1, to = -1;
+      int carried = 1;
+      for (Eigen::Index j = 0; j < count; ++j) {
+        if (std::isinf(down[j])) continue;
+        for (Eigen::Index i = 0; i < count; ++i) {
+          const double change = up[i] + down[j] - 2 * Q(i, j);
+          if (i != j && change < best) best = change, to = i, from = j, carried = 1;
+        }
+      }
+      for (Eigen::Index j = 0; j < count; ++j) {
+        const int w = n_[j];
+        if (w == 0 || is_hole(places_[j])) continue;
+        for (Eigen::Index i = 0; i < count; ++i) {
+          if (n_[i] != 0 || is_hole(places_[i])) continue;
+          const double change = 2 * w * (r[i] - r[j]) + w * w * (diagonal[i] + diagonal[j] - 2 * Q(i, j));
+          if (change < best) best = change, to = i, from = j, carried = w;
+        }
+      }
+      if (to < 0) break;
+      n_[to] += carried;
+      n_[from] -= carried;
+    }
+  }
+
+  template <class Rounds>
+  Cones refined(const Rounds& rounds) {
+    for (const Round& round : rounds) {
+      std::vector<int> candidates, others = places_;
+      const double reach = round.reach * spacing_ * round.reach * spacing_;
+      for (std::size_t i = 0; i < places_.size(); ++i) {
+        if (n_[i] == 0 && !is_hole(places_[i])) continue;
+        candidates.push_back(places_[i]);
+        if (is_hole(places_[i])) continue;
+        std::vector<int> near;
+        for (int v = 0; v < net_.vertex_count(); ++v) {
+          if (is_place(v) && squared_distance(points_[v], points_[places_[i]]) < reach) near.push_back(v);
+        }
+        draw(near, kAround, candidates);
+      }
+      draw(others, kOthers, candidates);
+      std::vector<int> missing(net_.vertex_count(), 0);
+      for (std::size_t i = 0; i < places_.size(); ++i) missing[places_[i]] = n_[i];
+      begin(std::move(candidates), &missing);
+      search(1, round.handles);
+    }
+    Cones result;
+    result.missing.assign(net_.vertex_count(), 0);
+    VectorXd u = u0_.col(0);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      result.missing[places_[i]] = n_[i];
+      u += n_[i] * G_.col(static_cast<Eigen::Index>(i));
+      if (!is_hole(places_[i])) result.cost += options_.price * price_of(n_[i]);
+    }
+    result.cost += u.cwiseAbs2().dot(weights_);
+    return result;
+  }
+
+  // Adds some of the list, drawn without putting back.
+  void draw(std::vector<int>& list, int count, std::vector<int>& drawn) {
+    for (int i = 0; i < count && i < std::ssize(list); ++i) {
+      std::swap(list[i], list[i + random_() % (list.size() - i)]);
+      drawn.push_back(list[i]);
+    }
+  }
+
+  const std::vector<Point>& points_;
+  const Net& net_;
+  const ConeOptions options_;
+  Laplace laplace_;
+  const std::vector<std::vector<int>> loops_;
+  VectorXd weights_, b_, turning_;
+  MatrixXd u0_, G_, Q_, flux_;
+  std::vector<int> spread_, places_, n_;
+  int total_ = 0, most_ = 0, least_ = 0;
+  double spacing_ = 0;
+  std::mt19937 random_;
+};
+
+}  // namespace
+
+Cones find_cones(const mesh::Surface& surface, const ConeOptions& options, Execution& execution) {
+  const Net net(surface);
+  Search search(surface, net, options);
+  std::vector<Cones> found;
+  const double starts = std::size(kSeeds) + (options.up ? std::size(kLevels) : 0);
+  const auto report = [&] { execution.report(static_cast<double>(found.size()) / starts); };
+  report();
+  if (options.up) {
+    for (const double level : kLevels) {
+      found.push_back(search.from_field(level, *options.up));
+      report();
+    }
+  }
+  for (const unsigned seed : kSeeds) {
+    found.push_back(search.from_curvature(seed));
+    report();
+  }
+  return *std::min_element(found.begin(), found.end(), [](const Cones& a, const Cones& b) { return a.cost < b.cost; });
+}
+
+Cones refined_cones(const mesh::Surface& surface, const std::vector<int>& missing, const ConeOptions& options,
+                    Execution& execution) {
+  execution.report(0);
+  const Net net(surface);
+  return Search(surface, net, options).from_level(missing);
+}
+
+std::vector<std::vector<int>> dual_loops(const Net& net) {
+  std::vector<std::vector<int>> result;
+  if (net.genus == 0) return result;
+  // A tree of edges, holes contracted; a tree of triangles across the other edges; what is left closes a loop each.
+  std::vector<std::vector<int>> leaving(net.vertex_count()), on_hole(net.vertex_count());
+  for (int side = 0; side < net.side_count(); ++side) leaving[net.tail[side]].push_back(side);
+  for (int v = 0; v < net.vertex_count(); ++v) {
+    if (net.hole[v] >= 0) on_hole[net.hole[v]].push_back(v);
+  }
+  std::vector<char> seen(net.vertex_count(), 0), in_tree(net.side_count(), 0), reached(net.triangle_count(), 0);
+  std::vector<int> queue;
+  const auto visit = [&](int v) {
+    const std::vector<int> one{v};
+    for (const int w : net.hole[v] >= 0 ? on_hole[net.hole[v]] : one) {
+      seen[w] = 1;
+      queue.push_back(w);
+    }
+  };
+  visit(net.tail[0]);
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    for (const int side : leaving[queue[i]]) {
+      if (seen[net.head[side]] || net.twin[side] < 0) continue;
+      in_tree[side] = in_tree[net.twin[side]] = 1;
+      visit(net.head[side]);
+    }
+  }
+  std::vector<int> entered(net.triangle_count(), -1);  // the side that the tree crosses into a triangle
+  queue.assign(1, 0);
+  reached[0] = 1;
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    for (int side = 3 * queue[i]; side < 3 * queue[i] + 3; ++side) {
+      const int back = net.twin[side];
+      if (back < 0 || in_tree[side] || reached[back / 3]) continue;
+      reached[back / 3] = 1;
+      entered[back / 3] = side;
+      in_tree[side] = in_tree[back] = 1;
+      queue.push_back(back / 3);
+    }
+  }
+  for (int side = 0; side < net.side_count(); ++side) {
+    if (net.twin[side] < side || in_tree[side]) continue;
+    std::vector<int> loop;
+    for (int s = entered[side / 3]; s >= 0; s = entered[s / 3]) loop.push_back(s);
+    std::reverse(loop.begin(), loop.end());
+    loop.push_back(side);
+    for (int s = entered[net.twin[side] / 3]; s >= 0; s = entered[s / 3]) loop.push_back(net.twin[s]);
+    result.push_back(std::move(loop));
+  }
+  return result;
+}
+
+}  // namespace holomorph::turns

@@ -1,0 +1,44 @@
+// Where the cones of a turned map are: whole numbers of k-th turns that are missing around vertices.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "base/execution.h"
+#include "turns/laplace.h"
+#include "turns/net.h"
+
+namespace holomorph::turns {
+
+/// The angle at vertex v is 2 pi (1 - missing[v] / k). A hole has what its polygon would have, at its place_of.
+struct Cones {
+  std::vector<int> missing;  ///< #V
+  double cost = 0;           ///< the integral of u^2 over the surface, its area 1, and the price of the cones
+};
+
+struct ConeOptions {
+  int k = 4;                                ///< the map may turn by k-th parts of a full turn
+  double price = 0.001;                     ///< of a cone of one k-th turn
+  std::optional<std::array<double, 3>> up;  ///< which way v is to run; none: any
+};
+
+/// Finds cones with which the log scale u of the flat metric, L u = (2 pi / k) missing - defect, is near 0, and with
+/// which handles turn by nearly whole k-th turns. The quadratic form of u in the cones is known at a few hundred
+/// candidates by Green's functions; cones appear, vanish and jump in pairs while that lowers the cost, then among
+/// candidates ever nearer to them. Begins with the cones of the smoothest field of k directions that is pulled level
+/// (Knoeppel and others 2013, doi:10.1145/2461912.2462005), by several weights of that, and with cones placed by
+/// curvature alone. The least cost wins.
+/// @throws SolverError, Cancelled
+/// @param surface some thousand triangles: Green's functions are kept of hundreds of candidates
+Cones find_cones(const mesh::Surface& surface, const ConeOptions& options, Execution& execution);
+
+/// Goes on from cones that were found on a coarser level of the surface, #V.
+Cones refined_cones(const mesh::Surface& surface, const std::vector<int>& missing, const ConeOptions& options,
+                    Execution& execution);
+
+/// The closed dual curves that generate the homology of the surface with its holes filled: 2 genus lists of the sides
+/// that they cross.
+std::vector<std::vector<int>> dual_loops(const Net& net);
+
+}  // namespace holomorph::turns

@@ -1,0 +1,100 @@
+#include "turns/level_field.h"
+
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "solver/direct/sparse_cholesky.h"
+
+namespace holomorph::turns {
+namespace {
+
+using Point = std::array<double, 3>;
+
+constexpr double kScale = 40;               // of the weight, relative to the lowest modes of the field
+constexpr double kLeast = 0.1, kMost = 10;  // weights of edges between the limits, for their inverses
+
+Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+}  // namespace
+
+Level level_directions(const Net& net, const std::vector<Point>& points, const Point& up) {
+  Level result{std::vector<Complex>(net.triangle_count(), 1.0), std::vector<double>(net.triangle_count(), 0.0)};
+  for (int t = 0; t < net.triangle_count(); ++t) {
+    if (!(net.area[t] > 0)) continue;
+    // up . x and up . y by the two sides from corner 0, of which the first is along x.
+    const Point first = difference(points[net.head[3 * t]], points[net.tail[3 * t]]);
+    const Point last = difference(points[net.tail[3 * t + 2]], points[net.tail[3 * t]]);
+    const Complex apex = -net.along[3 * t + 2];
+    const double x = dot(first, up) / net.along[3 * t].real();
+    const double y = (dot(last, up) - apex.real() * x) / apex.imag();
+    const Complex upwards(x, y);
+    result.steepness[t] = std::min(std::norm(upwards), 1.0);
+    if (std::abs(upwards) > 1e-9) result.direction[t] = Complex(0, -1) * upwards / std::abs(upwards);
+  }
+  return result;
+}
+
+std::vector<int> cones_of_field(const Net& net, const std::vector<Point>& points, int k, const Point& up,
+                                double weight) {
+  const int count = net.triangle_count();
+  const Level level = level_directions(net, points, up);
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(2 * count, 1);
+  const auto add = [&](int row, int column, Complex value) {  // a complex entry as a real block, the lower half
+    const double block[2][2] = {{value.real(), -value.imag()}, {value.imag(), value.real()}};
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) {
+        if (2 * row + i >= 2 * column + j) entries.emplace_back(2 * row + i, 2 * column + j, block[i][j]);
+      }
+    }
+  };
+  for (int t = 0; t < count; ++t) {
+    const double pull = weight * kScale / count * (net.area[t] / net.whole_area * count) * level.steepness[t];
+    add(t, t, pull + 1e-9);
+    const Complex wanted = pull * std::pow(level.direction[t], k);
+    b(2 * t, 0) = wanted.real();
+    b(2 * t + 1, 0) = wanted.imag();
+  }
+  for (int side = 0; side < net.side_count(); ++side) {
+    const int back = net.twin[side];
+    if (back < side) continue;  // each inner edge once
+    const int f = side / 3, g = back / 3;
+    if (f == g) continue;
+    const double w = 1 / std::clamp(net.weight[side], kLeast, kMost);
+    const Complex carried = std::polar(1.0, k * net.transport[side]);  // z_g is to be carried * z_f
+    add(f, f, w);
+    add(g, g, w);
+    if (f < g)
+      add(g, f, -w * carried);
+    else
+      add(f, g, -w * std::conj(carried));
+  }
+  Eigen::SparseMatrix<double> lower(2 * count, 2 * count);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  solver::SparseCholesky factor;
+  factor.compute(lower, {});
+  const Eigen::MatrixXd z = factor.solve(b);
+  const auto at = [&](int t) { return Complex(z(2 * t, 0), z(2 * t + 1, 0)); };
+  // The index of a vertex: the turning of the field on the way around it.
+  const double pi = std::numbers::pi;
+  std::vector<double> turned(net.vertex_count(), 0.0);
+  for (int v = 0; v < net.vertex_count(); ++v) {
+    if (net.first[v] >= 0) turned[v] = net.defect[v] + (net.hole[v] == v ? 2 * pi : 0);
+  }
+  for (int side = 0; side < net.side_count(); ++side) {
+    const int back = net.twin[side];
+    if (back < 0) continue;
+    const Complex carried = at(side / 3) * std::polar(1.0, k * net.transport[side]);
+    turned[net.head[side]] += std::arg(at(back / 3) * std::conj(carried)) / k;
+  }
+  std::vector<double> sums(net.vertex_count(), 0.0);
+  for (int v = 0; v < net.vertex_count(); ++v) sums[net.hole[v] < 0 ? v : net.hole[v]] += turned[v];
+  std::vector<int> missing(net.vertex_count(), 0);
+  for (int v = 0; v < net.vertex_count(); ++v) missing[v] = static_cast<int>(std::lround(k * sums[v] / (2 * pi)));
+  return missing;
+}
+
+}  // namespace holomorph::turns

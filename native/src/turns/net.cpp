@@ -1,0 +1,129 @@
+#include "turns/net.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mesh/triangle_geometry.h"
+
+namespace holomorph::turns {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kMostCotangent = 25;  // half of one: thinner angles would be stiff in the Laplacian
+constexpr double kLeastSlack = 1e-5;   // of the mean length: by how much two sides of a triangle exceed the third
+constexpr double kLeastWeight = 1e-4;  // of an edge: any positive weights make a connection with the wanted cones
+
+// What all lengths are raised by, so that each triangle has angles (Sharp & Crane 2020, doi:10.1111/cgf.14069): 0 where
+// none is degenerate.
+double raise_of(const mesh::Surface& surface) {
+  double sum = 0, most = 0;
+  for (const double length : surface.edge_lengths) sum += length;
+  const double least = kLeastSlack * sum / static_cast<double>(std::max<std::size_t>(surface.edges.size(), 1));
+  for (const mesh::Triple& edges : surface.triangle_edges) {
+    const double a = surface.edge_lengths[edges[0]], b = surface.edge_lengths[edges[1]],
+                 c = surface.edge_lengths[edges[2]];
+    if (mesh::is_degenerate(a, b, c)) most = std::max(most, least - (a + b + c - 2 * std::max({a, b, c})));
+  }
+  return most;
+}
+
+void lay_out(Net& net, const mesh::Surface& surface, int t, double raise) {
+  const auto [e0, e1, e2] = surface.triangle_edges[t];
+  const double a = surface.edge_lengths[e0] + raise, b = surface.edge_lengths[e1] + raise,
+               c = surface.edge_lengths[e2] + raise;
+  const double area = mesh::triangle_area(a, b, c);
+  const Complex apex((a * a + (c - b) * (c + b)) / (2 * a), 2 * area / a);
+  const Complex corners[3] = {0, a, apex};
+  const bool counts =
+      !mesh::is_degenerate(surface.edge_lengths[e0], surface.edge_lengths[e1], surface.edge_lengths[e2]);
+  net.area[t] = counts ? area : 0;
+  for (int i = 0; i < 3; ++i) {
+    const int side = 3 * t + i;
+    net.along[side] = corners[(i + 1) % 3] - corners[i];
+    const double lengths[3] = {a, b, c};
+    const double cotangent = mesh::cotangent(lengths[i], lengths[(i + 1) % 3], lengths[(i + 2) % 3], area);
+    net.cotangent[side] = counts ? 0.5 * cotangent : 0;
+  }
+}
+
+// The angle at the tail of a side, in its triangle.
+double angle_at(const Net& net, int side) {
+  return std::arg(-net.along[Net::before(side)] * std::conj(net.along[side]));
+}
+
+void find_twins(Net& net, int edges) {
+  std::vector<int> other(edges, -1);
+  for (int side = 0; side < net.side_count(); ++side) {
+    int& known = other[net.edge[side]];
+    if (known < 0) {
+      known = side;
+    } else {
+      net.twin[side] = known;
+      net.twin[known] = side;
+    }
+  }
+}
+
+void find_holes(Net& net) {
+  std::vector<int> following(net.vertex_count(), -1);
+  for (int side = 0; side < net.side_count(); ++side) {
+    if (net.twin[side] < 0) following[net.tail[side]] = net.head[side];
+  }
+  for (int v = 0; v < net.vertex_count(); ++v) {
+    if (following[v] < 0 || net.hole[v] >= 0) continue;
+    for (int w = v; net.hole[w] < 0; w = following[w]) net.hole[w] = v;
+  }
+}
+
+}  // namespace
+
+Net::Net(const mesh::Surface& surface)
+    : tail(3 * surface.triangles.size()),
+      head(tail.size()),
+      edge(tail.size()),
+      twin(tail.size(), -1),
+      along(tail.size()),
+      transport(tail.size(), 0.0),
+      cotangent(tail.size()),
+      weight(tail.size()),
+      area(surface.triangles.size()),
+      vertex_area(surface.vertex_count, 0.0),
+      defect(surface.vertex_count, 2 * kPi),
+      first(surface.vertex_count, -1),
+      hole(surface.vertex_count, -1) {
+  const double raise = raise_of(surface);
+  for (int t = 0; t < triangle_count(); ++t) {
+    lay_out(*this, surface, t, raise);
+    for (int i = 0; i < 3; ++i) {
+      tail[3 * t + i] = surface.triangles[t][i];
+      head[3 * t + i] = surface.triangles[t][(i + 1) % 3];
+      edge[3 * t + i] = surface.triangle_edges[t][i];
+    }
+  }
+  const int edges = static_cast<int>(surface.edges.size());
+  find_twins(*this, edges);
+  find_holes(*this);
+  for (int side = 0; side < side_count(); ++side) {
+    const int back = twin[side], v = tail[side];
+    weight[side] = std::min(cotangent[side], kMostCotangent);
+    if (back >= 0) {
+      weight[side] += std::min(cotangent[back], kMostCotangent);
+      transport[side] = std::arg(-along[back] * std::conj(along[side]));
+    }
+    weight[side] = std::max(weight[side], kLeastWeight);
+    vertex_area[v] += area[side / 3] / 3;
+    defect[v] -= angle_at(*this, side);
+    if (first[v] < 0 || back < 0) first[v] = side;
+    whole_area += area[side / 3] / 3;
+  }
+  int vertices = 0, holes = 0;
+  for (int v = 0; v < vertex_count(); ++v) {
+    vertices += first[v] >= 0;
+    holes += hole[v] == v;
+    if (hole[v] >= 0) defect[v] -= kPi;
+  }
+  genus = (2 - holes - (vertices - edges + triangle_count())) / 2;
+}
+
+}  // namespace holomorph::turns

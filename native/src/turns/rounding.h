@@ -1,0 +1,45 @@
+// The map nearest to given frames, and the whole numbers for it.
+#pragma once
+
+#include <vector>
+
+#include "turns/transitions.h"
+
+namespace holomorph::turns {
+
+/// The functions y and whole numbers z of a TurnedSpace that minimise, over the triangles,
+///     sum A e^(-2u) |grad x - f e^(u - i theta)|^2 = |f|^2 constant + |B (z - z0(f))|^2,
+/// where the factor f says how large and how turned the map is to be.
+class NearestMap {
+ public:
+  /// @throws SolverError @pre the others outlive it
+  NearestMap(const Net& net, const Frames& frames, const TurnedSpace& space);
+
+  /// A factor and whole numbers; error: how far they are from the map without whole numbers, over |f|^2.
+  struct Rounded {
+    double error = 0;
+    Complex factor;
+    lattice::IntegerVector z;
+  };
+  /// The best of a few sizes and angles near a factor, each whole numbers once, the nearest first.
+  std::vector<Rounded> round(Complex factor) const;
+
+  /// #V, y in the plane: x(corner) is this turned, and the offset
+  Eigen::VectorXcd functions(const Rounded& rounded) const;
+
+ private:
+  const TurnedSpace& space_;
+  Eigen::VectorXcd y_;  // for f = 1 and z = 0
+  Eigen::MatrixXcd Y_;  // #V x #z, by which y falls for each z
+  Eigen::MatrixXd B_;   // #z x #z
+  Eigen::VectorXcd g_;  // B^T B z0(f) = Re(f g)
+};
+
+/// The factor at which rows are level in the mean where the surface is steep, of modulus 1.
+Complex level_factor(const Net& net, const Frames& frames, int k, const std::vector<std::array<double, 3>>& points,
+                     const std::array<double, 3>& up);
+
+/// The complex number that a turn of the lattice is, r times.
+Complex turned_by(const TurnLattice& lattice, int r);
+
+}  // namespace holomorph::turns

@@ -1,0 +1,170 @@
+"""Tilings whose sides of a cut may also turn: their jumps are symmetries of the texture, to the last bit."""
+
+import families
+import numpy as np
+import pytest
+from holomorph import Cancelled, Surface, TopologyError, automatic_map, automatic_structure
+from holomorph.quality.quality import Quality
+from solved import surface_of
+
+MESHES = {
+    "sphere": lambda: families.geodesic_sphere(8),
+    "quads": lambda: families.spun(24, 12),
+    "torus": lambda: families.torus(30, 20, R=1.5),
+    "block": lambda: families.block_with_holes(2, refine=3, jitter=0.2),
+    "bowl": lambda: families.hemisphere(8),
+    "tube": lambda: families.cylinder(16, 24),
+    "torus with a hole": lambda: families.punctured_torus(24, 18),
+}
+
+
+@pytest.fixture(scope="module", params=MESHES)
+def surface(request):
+    return surface_of(MESHES[request.param]())
+
+
+def tiling(surface, turns, tiles=300.0, **options):
+    options = {"evenness": 0.5} | options
+    return automatic_structure(surface).tile(tiles, turns=turns, **options)
+
+
+def both_sides(surface, made):
+    """(((#E, 2) complex UVs at the ends of inner edges, in the triangle on the left and on the right), (#E,) seam)."""
+    native = surface._native
+    ends, edges = surface.triangles, native.triangle_edges.ravel()
+    uv = made.uv @ np.linalg.inv(made.lattice).T
+    at = uv[native.triangle_corners]
+    following = np.roll(np.arange(3), -1)
+    start, end = at.reshape(-1, 2), at[:, following].reshape(-1, 2)
+    is_left = ends.ravel() == native.edges[edges, 0]
+    count = np.bincount(edges, minlength=len(native.edges))
+    left, right = np.zeros((2, len(count), 2, 2))
+    left[edges[is_left]] = np.stack([start, end], axis=1)[is_left]
+    right[edges[~is_left]] = np.stack([end, start], axis=1)[~is_left]
+    seam = np.full(len(count), -1)
+    keys = {tuple(pair): k for k, pair in enumerate(native.edges.tolist())}
+    seam[[keys[tuple(pair)] for pair in made.seams.tolist()]] = np.arange(len(made.seams))
+    return left, right, seam, count == 2
+
+
+def turn(turns):
+    """The turn of the lattice by a part of a full one, in its own coordinates."""
+    return {2: -np.eye(2), 4: np.array([[0, -1], [1, 0]]), 6: np.array([[0, -1], [1, 1]])}[turns]
+
+
+@pytest.mark.parametrize("turns", [2, 4, 6])
+def test_jumps_are_symmetries_of_the_texture(surface, turns):
+    made = tiling(surface, turns)
+    left, right, seam, is_inner = both_sides(surface, made)
+    jumps = np.vstack([made.jumps, [0, 0, 0]])[seam]
+    powers = np.stack([np.linalg.matrix_power(turn(turns), r) for r in range(turns)])
+    expected = np.einsum("eij,ekj->eki", powers[jumps[:, 0]], left) + jumps[:, None, 1:]
+    error = np.abs(right - expected)[is_inner]
+    assert error.max() == 0 if turns != 6 else error.max() < 1e-12
+    single = made.uv.astype(np.float32)
+    assert turns == 6 or np.array_equal(single, made.uv)
+
+
+@pytest.mark.parametrize("turns", [2, 4, 6])
+def test_what_is_missing_around_cones_is_the_euler_number(surface, turns):
+    made = tiling(surface, turns)
+    missing = (1 - made.cone_angles) * turns
+    assert np.allclose(missing, np.rint(missing), atol=1e-12)
+    if surface.boundary_count == 0:
+        assert round(missing.sum()) == turns * (2 - 2 * surface.genus)
+    assert len(made.poles) == 0 and made.turns == turns
+
+
+@pytest.mark.parametrize("turns", [2, 4, 6])
+def test_it_is_more_even_than_what_may_only_be_shifted(turns):
+    ball = surface_of(families.geodesic_sphere(10))
+    shifted, turned = automatic_map(ball, main="seamless"), automatic_map(ball, main="seamless", turns=turns)
+    assert turned.quality.size_range < shifted.quality.size_range
+    assert turned.quality.mean_angle < shifted.quality.mean_angle and turned.cost < 0.8 * shifted.cost
+    assert not turned.quality.flipped.any()
+
+
+def test_a_flat_disk_and_a_straight_tube_have_no_cones():
+    points, faces = families.hexagonal_disk(8)
+    disk = Surface(np.column_stack([points, np.zeros(len(points))]), faces)
+    for made in (tiling(disk, 4), tiling(surface_of(families.cylinder(16, 24)), 4, evenness=0.0)):
+        assert len(made.cones) == 0 and made.quality.size_range == pytest.approx(1, abs=1e-3)
+
+
+def test_a_cube_has_a_cone_at_each_corner():
+    """As on dice: three squares meet there."""
+    made = tiling(surface_of(families.cube()), 4, tiles=54.0, evenness=0.0)
+    assert len(made.cones) == 8 and (made.cone_angles == 0.75).all()
+    assert made.quality.size_range < 1.2
+
+
+def test_without_turns_nothing_has_changed(surface):
+    structure = automatic_structure(surface)
+    assert np.array_equal(structure.tile(100, turns=1).uv, automatic_structure(surface).tile(100).uv)
+    assert structure.tile(100).turns == 1 and structure.tile(100).jumps.shape == (0, 3)
+
+
+def test_bits_do_not_depend_on_threads():
+    ball = surface_of(families.geodesic_sphere(9))
+    made = [automatic_map(ball, main="seamless", turns=4, threads=count).uv for count in (1, 2, 4)]
+    assert np.array_equal(made[0], made[1]) and np.array_equal(made[0], made[2])
+
+
+def test_another_number_of_tiles_searches_for_no_cones():
+    structure, stages = automatic_structure(surface_of(families.geodesic_sphere(6))), []
+    first = structure.tile(100, turns=4, evenness=0.5)
+    second = structure.tile(200, turns=4, evenness=0.5, progress=lambda _fraction, stage: stages.append(stage))
+    assert np.array_equal(first.cones, second.cones) and stages and "cones" not in stages
+    assert second.quality.median_density == pytest.approx(2 * first.quality.median_density, rel=0.35)
+
+
+def test_rows_run_level():
+    tube = surface_of(families.cylinder(16, 24))
+    made = tiling(tube, 4, tiles=200.0)
+    heights, v = tube.vertices[tube.corner_vertices, 2], made.uv
+    assert max(abs(np.corrcoef(heights, v[:, k])[0, 1]) for k in (0, 1)) > 1 - 1e-6
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"turns": 3}, "turns is 3; one of 1, 2, 4, 6"),
+        ({"turns": 4, "poles": 6}, "poles is 6; a tiling that turns has no such choice"),
+        ({"turns": 4, "lattice": "brick"}, "lattice is 'brick'"),
+        ({"turns": 4, "moves": {0: 1}}, "moves is"),
+        ({"turns": 4, "direction": "up"}, "direction is 'up'"),
+        ({"turns": 4, "direction": (0, 0, 0)}, "not all 0"),
+    ],
+)
+def test_wrong_choices_are_named(options, words):
+    with pytest.raises(ValueError, match=words):
+        automatic_structure(surface_of(families.geodesic_sphere(3))).tile(**options)
+
+
+def test_a_surface_without_positions_is_refused():
+    torus = surface_of(families.torus(12, 8))
+    points = torus.vertices[torus.triangles]
+    lengths = np.linalg.norm(np.roll(points, -1, axis=1) - np.roll(points, -2, axis=1), axis=2)
+    intrinsic = Surface.from_edge_lengths(torus.triangles, lengths)
+    with pytest.raises(TopologyError, match="needs positions"):
+        automatic_structure(intrinsic).tile(turns=4)
+
+
+def test_it_can_be_cancelled():
+    ball = surface_of(families.geodesic_sphere(12))
+    with pytest.raises(Cancelled):
+        automatic_structure(ball).tile(turns=4, progress=lambda _fraction, stage: stage != "cones")
+
+
+def test_things_in_tiles_are_refused_in_words():
+    made = automatic_map(surface_of(families.geodesic_sphere(5)), main="seamless", turns=4)
+    with pytest.raises(TopologyError, match="take turns=1"):
+        _ = made.tiled
+
+
+def test_the_hexagons_of_a_ball():
+    """Twelve cones of five sixths, as on a football."""
+    made = tiling(surface_of(families.geodesic_sphere(6)), 6, tiles=200.0)
+    assert ((1 - made.cone_angles) * 6).sum() == pytest.approx(12)
+    found = Quality.of(surface_of(families.geodesic_sphere(6))._native, made.uv, 1)
+    assert not found.flipped.any() and len(made.cones) == 12
