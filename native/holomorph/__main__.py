@@ -9,7 +9,7 @@ from pathlib import Path
 
 from . import Error, Surface, Verdict, __version__
 from .batch import mapping
-from .batch.recipe import Maps, Recipe
+from .batch.recipe import Maps, Recipe, Tiles
 from .commands.compare_command import compare
 from .commands.console import Parser, ended, failed, tell, warn
 from .commands.relief_command import relief
@@ -18,6 +18,7 @@ from .files import formats, whole_file
 from .maps.report import repairs_report, whole_report
 from .maps.request import MAIN_MAPS
 from .mesh.checks import SOLVERS, check_options, check_thresholds
+from .tiling.turned import TURNS
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3
 
@@ -72,6 +73,8 @@ def _parser():
     parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default without output: print it)")
     text = "default with --output: automatic, a seamless tiling where it is at least as even, else balanced"
     parser.add_argument("--main", choices=MAIN_MAPS, help=text)
+    text = "2, 4 or 6: sides of a cut may turn by a half, a quarter or a sixth, where the texture looks the same"
+    parser.add_argument("--turns", type=int, choices=TURNS, default=1, help=text)
     parser.add_argument("--solver", default="auto", help=f"{', '.join(SOLVERS)}: as in holomorph.conformal_structure")
     text = "for --solver paper: numbers of faces at which to refine the forms, such as 1000,5000, or none"
     parser.add_argument("--thresholds", type=_thresholds, metavar="FACES", help=text)
@@ -110,7 +113,8 @@ def mapped(options):
     surface = Surface.read(options.mesh)
     warn(options.mesh, surface.repairs.notes)
     main = options.main or ("automatic" if options.output else "balanced")
-    recipe = Recipe(Maps(main=main, solver=options.solver, thresholds=options.thresholds))
+    maps = Maps(main=main, solver=options.solver, thresholds=options.thresholds)
+    recipe = Recipe(maps, Tiles(turns=options.turns))
     parts = mapping.map_parts(surface, recipe, threads=options.threads)
     reports = [part.report for part in parts] + mapping.refused_reports(surface)
     report = {

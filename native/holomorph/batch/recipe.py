@@ -18,6 +18,7 @@ from ..maps.request import EVENNESS, MAIN_MAPS
 from ..mesh.checks import SOLVERS, as_float
 from ..tiling import tiling_options
 from ..tiling.tiling_options import MOST_POLES
+from ..tiling.turned import TURNS
 from .errors import UsageError
 
 BOUNDARIES = ("natural", "double_cover", "free")
@@ -117,6 +118,7 @@ class Tiles:
     max_turn: float = _number(0.2, "an angle of at least 0 radians", lambda value: value >= 0)
     evenness: float = _number(EVENNESS, "a number from 0 to 1", lambda value: 0 <= value <= 1)
     max_added: float | None = _optional_number("an angle distortion of at least 1", lambda value: value >= 1)
+    turns: int = _option(1, "1, 2, 4 or 6", lambda value: _is_count(value) and value in TURNS)
 
 
 @dataclass(frozen=True)

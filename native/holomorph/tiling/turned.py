@@ -14,13 +14,13 @@ from ..core.value import quoted
 from ..mesh.checks import check_threads, checked_evenness, only_component, real_number
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
-from .direction import UP, UPRIGHT
+from .direction import UPRIGHT, along
 from .tiling_options import LATTICES
 from .tilings import Rounding, Tiling
 
 TURNS = (1, 2, 4, 6)
 LATTICE = {2: "square", 4: "square", 6: "hex"}  # of which a turn by this part of a full one is a symmetry
-PRICE = 1e-3  # of a cone: what it is to take off the mean square of the logarithm of the scale
+PRICE = 5e-4  # of a cone: what it is to take off the mean square of the logarithm of the scale
 LEAST_TILES, TILES_PER_HANDLE = 100, 64  # by default
 
 
@@ -32,7 +32,7 @@ class TurnedTiler:
     ----------
     surface : Surface with positions, connected
     turns : 2, 4 or 6: the texture looks the same after a half, a quarter or a sixth turn
-    direction : "upright" for rows that run level; a (3,) vector that v runs along, as far as it can; None for any
+    direction : "upright" for rows that run level; a (3,) vector that u runs along, as far as it can; None for any
     threads, progress : as in `conformal_structure`
 
     Raises ValueError for other turns; TopologyError for a surface without positions; SolverError; Cancelled.
@@ -50,13 +50,15 @@ class TurnedTiler:
         if turns not in LATTICE:
             raise ValueError(f"turns is {quoted(turns)}; one of {', '.join(map(str, TURNS))} is needed")
         self._surface, self._component, self._threads = surface, only_component(surface), check_threads(threads or None)
+        vector, _ = along(direction, None, self._component)
         self._turns, self._placed = (
             turns,
             _native.place_cones(
                 self._component._native,
                 turns=turns,
                 price=PRICE,
-                up=_upwards(direction),
+                direction=vector,
+                is_of_u=not isinstance(direction, str),
                 threads=self._threads,
                 progress=progress,
             ),
@@ -104,16 +106,3 @@ def check_fits(turns: int, options: dict[str, Any]) -> None:
     for name, (given, usual) in options.items():
         if isinstance(given, np.ndarray) or given not in (usual, None):
             raise ValueError(f"{name} is {quoted(given)}; a tiling that turns has no such choice: take turns=1")
-
-
-def _upwards(direction):
-    if direction is None:
-        return None
-    if isinstance(direction, str):
-        if direction != UPRIGHT:
-            raise ValueError(f'direction is {quoted(direction)}; "{UPRIGHT}", three numbers or None is needed')
-        return list(UP)
-    vector = arrays.numbers(direction, "direction")
-    if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
-        raise ValueError(f"direction is {quoted(direction)}; three numbers, not all 0, are needed")
-    return (vector / np.linalg.norm(vector)).tolist()

@@ -60,8 +60,10 @@ Tiling evened(const Tiling& made, double evenness, int threads, const py::object
 }
 
 turns::PlacedCones place_cones(const std::shared_ptr<mesh::Surface>& surface, int turns, double price,
-                               std::optional<std::array<double, 3>> up, int threads, const py::object& progress) {
-  const turns::ConeOptions options{turns, price, up};
+                               std::optional<std::array<double, 3>> direction, bool is_of_u, int threads,
+                               const py::object& progress) {
+  turns::ConeOptions options{turns, price, {}};
+  if (direction) options.along = {*direction, is_of_u};
   return unlocked(threads, progress,
                   [&](Execution& execution) { return turns::PlacedCones(surface, options, execution); });
 }
@@ -83,8 +85,8 @@ void bind_turned_map(py::module_& m) {
   py::class_<PlacedCones>(m, "PlacedCones")
       .def("cones", [](const PlacedCones& placed) { return copy(placed.cones()); })
       .def("missing", [](const PlacedCones& placed) { return copy(placed.missing()); });
-  m.def("place_cones", &place_cones, "surface"_a, py::kw_only(), "turns"_a, "price"_a, "up"_a, "threads"_a,
-        "progress"_a);
+  m.def("place_cones", &place_cones, "surface"_a, py::kw_only(), "turns"_a, "price"_a, "direction"_a, "is_of_u"_a,
+        "threads"_a, "progress"_a);
   m.def("turned_map", &turned_map, "placed"_a, py::kw_only(), "tiles"_a, "evenness"_a, "threads"_a, "progress"_a);
 }
 

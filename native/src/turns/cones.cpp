@@ -7,8 +7,6 @@
 #include <random>
 #include <tuple>
 
-#include "turns/level_field.h"
-
 namespace holomorph::turns {
 namespace {
 
@@ -24,6 +22,7 @@ constexpr double kDouble = 3;              // price of a cone of two k-th turns 
 constexpr double kHandles = 0.3;           // weight of the square of what handles turn beyond whole k-th turns
 constexpr double kNear = 0.06;             // roots of the area: opposite cones of a field that are nearer vanish
 constexpr int kAround = 12, kOthers = 60;  // candidates around a cone in a round, and elsewhere
+constexpr int kMostAround = 240;           // around all
 constexpr double kGain = 1e-9;             // a move lowers the cost by more
 // Rounds: the distance of candidates from their cone, in spacings of the first ones; part of kHandles.
 struct Round {
@@ -68,8 +67,8 @@ class Search {
     find_spread();
   }
 
-  Cones from_field(double level, const std::array<double, 3>& up) {
-    std::vector<int> missing = cones_of_field(net_, points_, options_.k, up, level);
+  Cones from_field(double level, const Along& along) {
+    std::vector<int> missing = cones_of_field(net_, points_, options_.k, along, level);
     annihilate(missing);
     return from(missing, kFromField);
   }
@@ -192,9 +191,11 @@ class Search {
     MatrixXd B = MatrixXd::Zero(net_.vertex_count(), count);
     for (Eigen::Index i = 0; i < count; ++i) B(places_[i], i) = 2 * kPi / options_.k;
     G_ = laplace_.solve(B);
-    const MatrixXd weighted = weights_.asDiagonal() * G_;
-    Q_ = G_.transpose() * weighted;
-    b_ = -(weighted.transpose() * u0_.col(0));
+    const MatrixXd weighted = weights_.cwiseSqrt().asDiagonal() * G_;
+    Q_ = MatrixXd::Zero(count, count);
+    Q_.selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
+    Q_ = Q_.selfadjointView<Eigen::Lower>();
+    b_ = -(G_.transpose() * (weights_.cwiseProduct(u0_.col(0))));
     flux_ = fluxes(G_);
     turning_ = fluxes(u0_).col(0);
     for (std::size_t l = 0; l < loops_.size(); ++l) {
@@ -262,6 +263,8 @@ class Search {
   template <class Rounds>
   Cones refined(const Rounds& rounds) {
     for (const Round& round : rounds) {
+      const auto cones = std::max<std::ptrdiff_t>(std::ssize(n_) - std::ranges::count(n_, 0), 1);
+      const int around = std::clamp(kMostAround / static_cast<int>(cones), 3, kAround);
       std::vector<int> candidates, others = places_;
       const double reach = round.reach * spacing_ * round.reach * spacing_;
       for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -272,7 +275,7 @@ class Search {
         for (int v = 0; v < net_.vertex_count(); ++v) {
           if (is_place(v) && squared_distance(points_[v], points_[places_[i]]) < reach) near.push_back(v);
         }
-        draw(near, kAround, candidates);
+        draw(near, around, candidates);
       }
       draw(others, kOthers, candidates);
       std::vector<int> missing(net_.vertex_count(), 0);
@@ -319,12 +322,12 @@ Cones find_cones(const mesh::Surface& surface, const ConeOptions& options, Execu
   const Net net(surface);
   Search search(surface, net, options);
   std::vector<Cones> found;
-  const double starts = std::size(kSeeds) + (options.up ? std::size(kLevels) : 0);
+  const double starts = std::size(kSeeds) + (options.along ? std::size(kLevels) : 0);
   const auto report = [&] { execution.report(static_cast<double>(found.size()) / starts); };
   report();
-  if (options.up) {
+  if (options.along) {
     for (const double level : kLevels) {
-      found.push_back(search.from_field(level, *options.up));
+      found.push_back(search.from_field(level, *options.along));
       report();
     }
   }

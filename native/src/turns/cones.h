@@ -1,12 +1,12 @@
 // Where the cones of a turned map are: whole numbers of k-th turns that are missing around vertices.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
 #include "base/execution.h"
 #include "turns/laplace.h"
+#include "turns/level_field.h"
 #include "turns/net.h"
 
 namespace holomorph::turns {
@@ -18,9 +18,9 @@ struct Cones {
 };
 
 struct ConeOptions {
-  int k = 4;                                ///< the map may turn by k-th parts of a full turn
-  double price = 0.001;                     ///< of a cone of one k-th turn
-  std::optional<std::array<double, 3>> up;  ///< which way v is to run; none: any
+  int k = 4;                   ///< the map may turn by k-th parts of a full turn
+  double price = 0.0005;       ///< of a cone of one k-th turn
+  std::optional<Along> along;  ///< none: any direction
 };
 
 /// Finds cones with which the log scale u of the flat metric, L u = (2 pi / k) missing - defect, is near 0, and with

@@ -20,7 +20,8 @@ double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + 
 
 }  // namespace
 
-Level level_directions(const Net& net, const std::vector<Point>& points, const Point& up) {
+Level level_directions(const Net& net, const std::vector<Point>& points, const Along& along) {
+  const Point& up = along.vector;
   Level result{std::vector<Complex>(net.triangle_count(), 1.0), std::vector<double>(net.triangle_count(), 0.0)};
   for (int t = 0; t < net.triangle_count(); ++t) {
     if (!(net.area[t] > 0)) continue;
@@ -32,15 +33,16 @@ Level level_directions(const Net& net, const std::vector<Point>& points, const P
     const double y = (dot(last, up) - apex.real() * x) / apex.imag();
     const Complex upwards(x, y);
     result.steepness[t] = std::min(std::norm(upwards), 1.0);
-    if (std::abs(upwards) > 1e-9) result.direction[t] = Complex(0, -1) * upwards / std::abs(upwards);
+    if (std::abs(upwards) > 1e-9)
+      result.direction[t] = (along.is_of_u ? Complex(1) : Complex(0, -1)) * upwards / std::abs(upwards);
   }
   return result;
 }
 
-std::vector<int> cones_of_field(const Net& net, const std::vector<Point>& points, int k, const Point& up,
+std::vector<int> cones_of_field(const Net& net, const std::vector<Point>& points, int k, const Along& along,
                                 double weight) {
   const int count = net.triangle_count();
-  const Level level = level_directions(net, points, up);
+  const Level level = level_directions(net, points, along);
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(2 * count, 1);
   const auto add = [&](int row, int column, Complex value) {  // a complex entry as a real block, the lower half

@@ -7,7 +7,6 @@
 #include "base/errors.h"
 #include "linear/dense.h"
 #include "solver/direct/sparse_cholesky.h"
-#include "turns/level_field.h"
 
 namespace holomorph::turns {
 namespace {
@@ -167,12 +166,12 @@ VectorXcd NearestMap::functions(const Rounded& rounded) const {
 }
 
 Complex level_factor(const Net& net, const Frames& frames, int k, const std::vector<std::array<double, 3>>& points,
-                     const std::array<double, 3>& up) {
-  const Level level = level_directions(net, points, up);
+                     const Along& along) {
+  const Level level = level_directions(net, points, along);
   Complex sum = 0;
   for (int t = 0; t < net.triangle_count(); ++t) {
-    const Complex along = std::polar(1.0, frames.angle[t]);  // direction of u in the triangle
-    sum += net.area[t] * level.steepness[t] * std::pow(std::conj(level.direction[t]) * along, k);
+    const Complex of_u = std::polar(1.0, frames.angle[t]);
+    sum += net.area[t] * level.steepness[t] * std::pow(std::conj(level.direction[t]) * of_u, k);
   }
   return std::polar(1.0, std::abs(sum) > 0 ? std::arg(sum) / k : 0.0);
 }

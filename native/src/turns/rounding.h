@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "turns/level_field.h"
 #include "turns/transitions.h"
 
 namespace holomorph::turns {
@@ -37,7 +38,7 @@ class NearestMap {
 
 /// The factor at which rows are level in the mean where the surface is steep, of modulus 1.
 Complex level_factor(const Net& net, const Frames& frames, int k, const std::vector<std::array<double, 3>>& points,
-                     const std::array<double, 3>& up);
+                     const Along& along);
 
 /// The complex number that a turn of the lattice is, r times.
 Complex turned_by(const TurnLattice& lattice, int r);

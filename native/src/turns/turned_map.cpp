@@ -109,7 +109,8 @@ PlacedCones::PlacedCones(std::shared_ptr<const mesh::Surface> surface, const Con
       frames_(make_frames(*surface_, net_, options.k, missing_)),
       space_(make_space(net_, frames_, options.k, missing_)),
       nearest_(net_, frames_, space_) {
-  level_ = options.up ? level_factor(net_, frames_, options.k, surface_->polygons.vertices, *options.up) : Complex(1);
+  level_ =
+      options.along ? level_factor(net_, frames_, options.k, surface_->polygons.vertices, *options.along) : Complex(1);
   execution.finish();
 }
 

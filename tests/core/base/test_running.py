@@ -428,10 +428,12 @@ def test_invariants_that_a_surface_has_not_are_errors(name):
 # ---- the package as the add-on finds it ---------------------------------------------------------------------------
 
 ADDON_FINDS = """
-import importlib.util
-spec = importlib.util.spec_from_file_location("finder", {path!r})
-finder = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(finder)
+import importlib
+import sys
+import types
+sys.modules["addon"] = types.ModuleType("addon")
+sys.modules["addon"].__path__ = [{path!r}]  # without what registers in Blender
+finder = importlib.import_module("addon.native")
 print(finder.problem() or finder.load().conformal_structure.__name__)
 """
 
@@ -442,7 +444,7 @@ def test_a_folder_of_the_package_s_name_does_not_hide_it(tmp_path, text):
     (tmp_path / "holomorph").mkdir()
     if text is not None:
         (tmp_path / "holomorph" / "__init__.py").write_text(text)
-    program = ADDON_FINDS.format(path=str(ROOT / "addon" / "native.py"))
+    program = ADDON_FINDS.format(path=str(ROOT / "addon"))
     paths = os.pathsep.join([str(tmp_path), str(Path(np.__file__).parents[1])])
     command, environment = [sys.executable, "-c", program], os.environ | {"PYTHONPATH": paths}
     run = subprocess.run(command, capture_output=True, text=True, timeout=120, env=environment, cwd=tmp_path)

@@ -12,7 +12,6 @@ SOLVER = 1e-8
 SMALL = [
     "beetle_59k_b11.obj",
     "bunny_stanford_raw.ply",
-    "featuretype_unwelded.ply",
     "inverted_triangles_b6.obj",
     "lionstatue_g3_b1.obj",
     "makehuman_base_quads.obj",

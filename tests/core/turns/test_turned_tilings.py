@@ -118,11 +118,17 @@ def test_another_number_of_tiles_searches_for_no_cones():
     assert second.quality.median_density == pytest.approx(2 * first.quality.median_density, rel=0.35)
 
 
-def test_rows_run_level():
+@pytest.mark.parametrize("turns", [2, 4, 6])
+@pytest.mark.parametrize(("direction", "unit"), [("upright", 1j), ((0.0, 0.0, 2.0), 1)])
+def test_rows_run_as_asked(turns, direction, unit):
+    """Level, or u along a vector, but for turns of the texture."""
     tube = surface_of(families.cylinder(16, 24))
-    made = tiling(tube, 4, tiles=200.0)
-    heights, v = tube.vertices[tube.corner_vertices, 2], made.uv
-    assert max(abs(np.corrcoef(heights, v[:, k])[0, 1]) for k in (0, 1)) > 1 - 1e-6
+    z = tiling(tube, turns, tiles=200.0, direction=direction).uv @ [1, 1j]
+    heights = tube.vertices[tube.corner_vertices, 2]
+    along = [(z * np.conj(unit * np.exp(2j * np.pi * r / turns))).real for r in range(turns)]
+    assert max(np.corrcoef(heights, values)[0, 1] for values in along) > np.cos(
+        np.radians(6)
+    )  # which rounding may take
 
 
 @pytest.mark.parametrize(
