@@ -13,7 +13,7 @@ READ = task._read
 ENDLESS = 3600  # seconds
 
 
-def read(path):
+def read(path, up):
     kind = path.stem.split("_")[0]
     if kind == "abort":
         os.abort()
@@ -29,7 +29,7 @@ def read(path):
         os.kill(os.getpid(), signal.SIGKILL)
     if kind == "slow":
         time.sleep(0.3)
-    return READ(path)
+    return READ(path, up)
 
 
 def _is_first(path):
