@@ -90,6 +90,7 @@ def symmetrised(double: Surface, forms: ArrayLike) -> Reals:
         if `double` is not a double cover.
     ValueError
         if `forms` has another number of values.
+
     Source: Gu, Wang, Yau (2003), § 8 and Eq. 12.
 
     Examples
