@@ -24,7 +24,7 @@ from ..quality.quality import Quality
 from ..tiling.tiling import Tiler
 from ..tiling.tiling_options import Poles, asked_poles
 from ..tiling.tilings import Tiling
-from ..tiling.turned import TurnedTiler, check_fits
+from ..tiling.turned import LATTICE, TurnedTiler, check_fits
 from .solver_report import Residuals, SolverReport
 
 PLACING = 0.6  # part of the work on a tiling, for finding the poles
@@ -154,9 +154,9 @@ class Structure(Value):
         tiles = tiles if density is None else self._tiles_of(density, tiles)
         placing, rounding = scaled(progress, 0.0, PLACING), scaled(progress, PLACING, 1.0)
         if turns != 1:
-            chosen = {"poles": (poles or "auto", "auto"), "turn": (turn, 0.0), "boundary": (boundary, "automatic")}
-            chosen |= {"lattice": (lattice, "square"), "max_added": (max_added, None), "allowed": (allowed, None)}
-            check_fits(turns, chosen | {"moves": (moves or None, None)})
+            chosen = {"poles": (poles, "auto", 0), "turn": (turn, 0.0), "boundary": (boundary, "automatic")}
+            chosen |= {"lattice": (lattice, "square", LATTICE.get(turns)), "max_added": (max_added,)}
+            check_fits(chosen | {"allowed": (allowed,), "moves": (moves or None,)})
             tiler = self._turned_tiler(surface, turns, direction, placing)
             key = tiler, tiles, evenness
             made = self._tilings.get(key) or tiler.tile(tiles, evenness=evenness, progress=rounding)

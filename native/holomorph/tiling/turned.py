@@ -101,8 +101,11 @@ class TurnedTiler:
         return arrays.frozen(vertices if same else self._component.vertex_index[vertices])
 
 
-def check_fits(turns: int, options: dict[str, Any]) -> None:
-    """Raises ValueError for options that a turned tiling does not have, where they are not those by default."""
-    for name, (given, usual) in options.items():
-        if isinstance(given, np.ndarray) or given not in (usual, None):
+def check_fits(options: dict[str, Any]) -> None:
+    """Raises ValueError for options that a turned tiling does not have.
+
+    options : by name, the value and those that fit
+    """
+    for name, (given, *fitting) in options.items():
+        if isinstance(given, np.ndarray) or given not in (*fitting, None):
             raise ValueError(f"{name} is {quoted(given)}; a tiling that turns has no such choice: take turns=1")

@@ -136,6 +136,7 @@ def test_rows_run_as_asked(turns, direction, unit):
     [
         ({"turns": 3}, "turns is 3; one of 1, 2, 4, 6"),
         ({"turns": 4, "poles": 6}, "poles is 6; a tiling that turns has no such choice"),
+        ({"turns": 4, "poles": np.array([3, 5])}, "poles is"),
         ({"turns": 4, "lattice": "brick"}, "lattice is 'brick'"),
         ({"turns": 4, "moves": {0: 1}}, "moves is"),
         ({"turns": 4, "direction": "up"}, "direction is 'up'"),
@@ -174,3 +175,5 @@ def test_the_hexagons_of_a_ball():
     assert ((1 - made.cone_angles) * 6).sum() == pytest.approx(12)
     found = Quality.of(surface_of(families.geodesic_sphere(6))._native, made.uv, 1)
     assert not found.flipped.any() and len(made.cones) == 12
+    named = tiling(surface_of(families.geodesic_sphere(6)), 6, tiles=200.0, lattice="hex")
+    assert np.array_equal(named.uv, made.uv)
