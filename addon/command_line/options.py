@@ -111,7 +111,7 @@ def _take_over(options):
     """Adds what the operators' properties have besides, under their names."""
     for name in ("main", "texture", "direction", "poles"):
         setattr(options, name, getattr(options, name).upper())
-    options.use_selection, options.amounts, options.turns = options.selection.upper(), (), ()
+    options.use_selection, options.amounts, options.phases = options.selection.upper(), (), ()
     if options.seamless:
         options.turn, options.quarters, options.repeats, options.empties = options.rotation, 0, 1, False
         if options.poles.isdecimal():

@@ -54,7 +54,7 @@ class MapOptions:
     density: float = 1.0  # factor of UV lengths, about the middle of the UV square
     rotation: float = 0.0  # radians, counter-clockwise, of every part
     amounts: tuple = ()  # factor of each form's share in the main map; none means 1
-    turns: tuple = ()  # radians, phase of each form's share in the main map
+    phases: tuple = ()  # radians, phase of each form's share in the main map
     margin: float = 0.02  # least distance between parts, in sides of the UV square
     main: str = AUTOMATIC  # what the main map is
     per_length: float = 0.0  # UV length for a length on the surface, at density 1; 0 fills the UV square
@@ -63,7 +63,7 @@ class MapOptions:
     @property
     def package_main(self):
         """The main map that the package is asked for: another than "balanced" where nothing else is chosen."""
-        is_mixed = any(amount != 1 for amount in self.amounts) or any(turn != 0 for turn in self.turns)
+        is_mixed = any(amount != 1 for amount in self.amounts) or any(phase != 0 for phase in self.phases)
         is_plain = self.density == 1 and self.rotation == 0 and not is_mixed
         return MAINS.get(self.main, "balanced") if is_plain or self.main != AUTOMATIC else "balanced"
 
@@ -207,7 +207,7 @@ def _mapped_together(solved, options, progress):
 def _asked(solved, options):
     """What decides how the parts of a solve are mapped, before they are laid out."""
     is_tiling = options.main == TILING
-    return solved.number, options.package_main, is_tiling, options.tiling.made, options.amounts, options.turns
+    return solved.number, options.package_main, is_tiling, options.tiling.made, options.amounts, options.phases
 
 
 def _object(solved, options, parts, size):
@@ -254,7 +254,7 @@ def _requests(components, options):
         wanted.direction,
         {"lattice": wanted.lattice, "boundary": wanted.boundary, "turn": wanted.turn or None},
         options.amounts,
-        options.turns,
+        options.phases,
     )
 
 

@@ -88,7 +88,7 @@ ABOUT = {
     "solver": "How the linear systems are solved",
     "amounts": "Share of each form in the main map: it moves the places where squares are large and small. At 1, "
     "their sizes are most even. While you mix forms, Evenness has no effect on parts of more than 20,000 triangles",
-    "turns": "Turn each form's share in the main map: squares turn and change size around its handle. No effect on "
+    "phases": "Turn each form's share in the main map: squares turn and change size around its handle. No effect on "
     "parts with a boundary, which stays straight",
     "squares": "Number of squares, bricks or scales per UV unit, rounded to whole images of the texture: more are "
     "smaller. 0 chooses a number that suits the object's size",
@@ -184,8 +184,8 @@ class MapProperties(SharedProperties):
     amounts: FloatVectorProperty(
         name="Amount", description=ABOUT["amounts"], size=FORMS, default=(1.0,) * FORMS, soft_min=0.0, soft_max=4.0
     )
-    turns: FloatVectorProperty(
-        name="Phase", description=ABOUT["turns"], size=FORMS, default=(0.0,) * FORMS, subtype="EULER", unit="ROTATION"
+    phases: FloatVectorProperty(
+        name="Phase", description=ABOUT["phases"], size=FORMS, default=(0.0,) * FORMS, subtype="EULER", unit="ROTATION"
     )
     checker_scale: FloatProperty(name="Squares", description=ABOUT["squares"], default=0.0, min=0.0, soft_max=200.0)
     shape: BoolProperty(name="Store Shape", description=ABOUT["shape"], default=False)
@@ -201,4 +201,4 @@ class MapProperties(SharedProperties):
         for index in range(min(self.form_count, FORMS) if self.form_count > 1 else 0):  # a single form has no share
             row = layout.row(align=True)
             row.prop(self, "amounts", index=index, text=f"Form {index + 1}")
-            row.prop(self, "turns", index=index, text="")
+            row.prop(self, "phases", index=index, text="")

@@ -80,7 +80,7 @@ def _map_options(properties, _target, own):
         properties.density,
         properties.rotation,
         tuple(properties.amounts),
-        tuple(properties.turns),
+        tuple(properties.phases),
         properties.margin,
         properties.main,
         tiling=tiling,

@@ -141,7 +141,7 @@ def test_the_maps_of_the_forms_stay_what_they_are():
 
 
 @pytest.mark.parametrize(
-    "options", [{"density": 2.0}, {"rotation": 0.5}, {"amounts": (0.5,) + (1,) * 7}, {"turns": (0.1,) + (0,) * 7}]
+    "options", [{"density": 2.0}, {"rotation": 0.5}, {"amounts": (0.5,) + (1,) * 7}, {"phases": (0.1,) + (0,) * 7}]
 )
 def test_what_is_set_of_the_balanced_map_is_followed(options):
     obj = limb()
@@ -298,7 +298,7 @@ def test_large_maps_of_mixed_forms_are_not_evened(monkeypatch):
     obj = limb()
     monkeypatch.setattr(module("native").load().maps.request, "MIXED_EVENED", 10)
     amounts = (0.5,) + (1,) * 7
-    for dials, evenness in (({"amounts": amounts}, 0), ({"turns": (0.1,) + (0,) * 7}, 0), ({"rotation": 0.5}, 0.5)):
+    for dials, evenness in (({"amounts": amounts}, 0), ({"phases": (0.1,) + (0,) * 7}, 0), ({"rotation": 0.5}, 0.5)):
         press(main="BALANCED", **dials)
         (part,) = stored_report(obj)["components"]
         assert part["main_map"]["evenness"] == evenness

@@ -64,7 +64,7 @@ def test_the_ends_of_a_tube_are_straight_and_their_length_is_the_same():
 @pytest.mark.parametrize("name", ["Holomorphic", "Holomorphic 1", "Holomorphic 2", "Holomorphic 3"])
 def test_all_maps_of_a_surface_with_handles_and_holes_have_straight_boundaries(name):
     obj = torus_with_a_hole()
-    assert run(turns=(0.7,) * 8, amounts=(0.5, 2, 1, 1, 1, 1, 1, 1)) == {"FINISHED"}
+    assert run(phases=(0.7,) * 8, amounts=(0.5, 2, 1, 1, 1, 1, 1, 1)) == {"FINISHED"}
     assert (only_part(obj)["genus"], only_part(obj)["boundary_count"], only_part(obj)["forms"]) == (1, 2, 3)
     (part,) = parts_of(obj)
     assert straightness(part, uv(obj, name)) < FLOAT32
