@@ -244,18 +244,18 @@ def _made(solved, options, progress):
 def _requests(components, options):
     """The `holomorph.maps.request.Request`s for parts."""
     wanted = options.tiling
-    return holomorph.maps.request.requests_of_parts(
-        components,
-        options.package_main,
-        wanted.poles,
-        None if wanted.allowed is None else np.frombuffer(wanted.allowed, bool),
-        wanted.moved,
-        wanted.evenness,
-        wanted.direction,
-        {"lattice": wanted.lattice, "boundary": wanted.boundary, "turn": wanted.turn or None},
-        options.amounts,
-        options.phases,
+    asked = holomorph.maps.request.MeshRequest(
+        main=options.package_main,
+        poles=wanted.poles,
+        allowed=None if wanted.allowed is None else np.frombuffer(wanted.allowed, bool),
+        moves=wanted.moved,
+        direction=wanted.direction,
+        evenness=wanted.evenness,
+        amounts=options.amounts,
+        phases=options.phases,
+        options={"lattice": wanted.lattice, "boundary": wanted.boundary, "turn": wanted.turn or None},
     )
+    return [asked.of_structure(part) for part in components]
 
 
 def _parts(components, requests, options, made):

@@ -14,7 +14,7 @@ from ..tiling.tiling import Poles
 from .automatic_structure import AnyStructure
 from .map import Map
 from .map_objects import map_objects
-from .request import EVENNESS, request_of_part
+from .request import EVENNESS, MeshRequest
 from .size import SizePolicy
 from .tiling_search import Refusal
 
@@ -72,10 +72,10 @@ def automatic_maps(
         check_list(main, "main")
     check_list(moves, "moves")
     mains = [main] * len(parts) if isinstance(main, str) else main
-    requests = [
-        request_of_part(part, structure, wanted, poles, allowed, moves, evenness, direction, options)
-        for part, structure, wanted in zip(parts, structures or [None] * len(parts), mains)
-    ]
+    asked = MeshRequest(
+        poles=poles, allowed=allowed, moves=moves, direction=direction, evenness=evenness, options=options
+    )
+    requests = [asked.of_part(*each) for each in zip(parts, structures or [None] * len(parts), mains)]
     ((made, _),) = map_objects([requests], SizePolicy.of(parts, tiles, density), threads, progress)
     for found in made:
         if isinstance(found, MemoryError):

@@ -55,64 +55,56 @@ class Request:
         return given, *_plain(asked)
 
 
-def request_of_part(
-    part: Surface,
-    structure: AnyStructure | None,
-    main: str,
-    poles: Poles,
-    allowed: ArrayLike | None,
-    moves: Sequence[tuple[int, int]],
-    evenness: float,
-    direction: ArrayLike | str | None,
-    options: dict[str, Any],
-) -> Request:
-    """The `Request` for a part of a mesh, from poles, places and moves in vertices of the mesh as given."""
-    if not isinstance(poles, (str, numbers.Real)):
-        places, is_there = on_part(part, integer(poles, "poles"))
-        poles = places[is_there].tolist() or "auto"
-    if allowed is not None:
-        allowed = np.asarray(allowed, bool)
-        if allowed.shape != (part.given_vertex_count,):
-            raise ValueError(f"allowed has the shape {allowed.shape}; ({part.given_vertex_count},) is needed")
-        allowed = allowed[part.vertex_index]
-        if not allowed.any():
-            allowed, poles = None, 0 if isinstance(poles, (str, numbers.Real)) else poles
-    places, is_there = on_part(part, integer([vertex for _, vertex in moves], "moves"))
-    own = {pole: int(place) for (pole, _), place, has in zip(moves, places, is_there) if has}
-    return Request(
-        part, structure, main, poles, evenness, direction, options=options | {"allowed": allowed, "moves": own}
-    )
-
-
-def requests_of_parts(
-    parts: Sequence[PartStructure],
-    main: str,
-    poles: Poles,
-    allowed: ArrayLike | None,
-    moves: Sequence[tuple[int, int]],
-    evenness: float,
-    direction: ArrayLike | str | None,
-    options: dict[str, Any],
-    amounts: Sequence[float] = (),
-    phases: Sequence[float] = (),
-) -> list[Request]:
-    """The `Request`s for parts of a mesh; "automatic" is "balanced" on those where a structure was chosen, or without
-    area.
+@dataclass(frozen=True, eq=False)
+class MeshRequest:
+    """What is asked for of all parts of a mesh, in vertices of the mesh as given; see `automatic_maps`.
 
     amounts, phases : factor and phase (radians) of the share of each form in balanced maps; where some change them,
         maps of more than `MIXED_EVENED` triangles are not evened
+    options : further ones of `Structure.tile`
     """
-    is_mixed = any(amount != 1 for amount in amounts) or any(phase != 0 for phase in phases)
-    made = []
-    for part in parts:
-        is_open = main == "automatic" and not part.is_chosen and part.surface.area > 0
-        own = main if is_open or main != "automatic" else "balanced"
-        is_slow = own == "balanced" and is_mixed and len(part.surface.triangles) > MIXED_EVENED
-        given, evened = (part.surface, part.structure, own, poles, allowed, moves), 0.0 if is_slow else evenness
-        made.append(request_of_part(*given, evened, direction, options))
-        if own == "balanced":
-            made[-1] = replace(made[-1], coefficients=_mixed_coefficients(part.structure, amounts, phases))
-    return made
+
+    main: str = "automatic"
+    poles: Poles = "auto"
+    allowed: ArrayLike | None = None
+    moves: Sequence[tuple[int, int]] = ()
+    direction: ArrayLike | str | None = "upright"
+    evenness: float = EVENNESS
+    amounts: Sequence[float] = ()
+    phases: Sequence[float] = ()
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+    def of_part(self, part: Surface, structure: AnyStructure | None = None, main: str | None = None) -> Request:
+        """The `Request` for a part. main : another than that of all parts"""
+        poles, allowed = self.poles, self._allowed_on(part)
+        if not isinstance(poles, (str, numbers.Real)):
+            places, is_there = on_part(part, integer(poles, "poles"))
+            poles = places[is_there].tolist() or "auto"
+        if allowed is not None and not allowed.any():
+            allowed, poles = None, 0 if isinstance(poles, (str, numbers.Real)) else poles
+        places, is_there = on_part(part, integer([vertex for _, vertex in self.moves], "moves"))
+        moves = {pole: int(place) for (pole, _), place, has in zip(self.moves, places, is_there) if has}
+        options = {**self.options, "allowed": allowed, "moves": moves}
+        return Request(part, structure, main or self.main, poles, self.evenness, self.direction, options=options)
+
+    def of_structure(self, part: PartStructure) -> Request:
+        """The `Request` for a part; "automatic" is "balanced" where its structure was chosen, or without area."""
+        is_balanced = self.main == "automatic" and (part.is_chosen or not part.surface.area > 0)
+        made = self.of_part(part.surface, part.structure, "balanced" if is_balanced else None)
+        if made.main != "balanced":
+            return made
+        is_mixed = any(amount != 1 for amount in self.amounts) or any(phase != 0 for phase in self.phases)
+        evenness = 0.0 if is_mixed and len(part.surface.triangles) > MIXED_EVENED else self.evenness
+        mixed = _mixed_coefficients(part.structure, self.amounts, self.phases)
+        return replace(made, coefficients=mixed, evenness=evenness)
+
+    def _allowed_on(self, part):
+        if self.allowed is None:
+            return None
+        allowed = np.asarray(self.allowed, bool)
+        if allowed.shape != (part.given_vertex_count,):
+            raise ValueError(f"allowed has the shape {allowed.shape}; ({part.given_vertex_count},) is needed")
+        return allowed[part.vertex_index]
 
 
 def _mixed_coefficients(structure, amounts, phases):
