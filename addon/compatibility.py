@@ -164,9 +164,10 @@ def old_numpy_names():
         del np.bool
 
 
-def fbx_importer():
-    """The importer of FBX files, a new one from 5.0 on."""
-    return bpy.ops.wm.fbx_import if is_there(bpy.ops.wm.fbx_import) else bpy.ops.import_scene.fbx
+def operator(names):
+    """The first of these operators, such as import_scene.fbx, that this Blender has, or the last."""
+    operators = [getattr(getattr(bpy.ops, room), name) for room, name in (each.split(".") for each in names)]
+    return next(filter(is_there, operators), operators[-1])
 
 
 def is_there(operator):

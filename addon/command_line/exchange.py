@@ -8,6 +8,7 @@ import bpy
 
 from .. import compatibility, native
 from ..materials import material, plain
+from ..native import holomorph
 from ..scene import gathering, uv_maps
 from ..writing import states
 
@@ -63,15 +64,11 @@ def read(path, up):
 
 def _import(path, up):
     kind = path.suffix.lower()
-    if kind in GLTF:
-        with compatibility.old_numpy_names():
-            _call(path, "read", bpy.ops.import_scene.gltf)
-    elif kind in USD:
-        _call(path, "read", bpy.ops.wm.usd_import)
-    elif kind == ".obj":
+    if kind == ".obj":
         _call(path, "read", bpy.ops.wm.obj_import, up_axis=up, forward_axis=compatibility.forward_axis(up))
-    else:
-        _call(path, "read", compatibility.fbx_importer())
+        return
+    with compatibility.old_numpy_names():
+        _call(path, "read", compatibility.operator(holomorph.files.formats.IMPORTERS[kind]))
 
 
 def write(path, forms=False, texture=False):

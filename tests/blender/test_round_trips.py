@@ -6,6 +6,7 @@ import full_scene
 import pytest
 from exchange_formats import SCENES, may_write_gltf
 from headless_runs import headless
+from holomorph.files.formats import IMPORTERS
 from loaded_addon import module
 from scenes import grid_arrays, mesh_object
 
@@ -33,7 +34,7 @@ def operators(path):
     if path.suffix == ".glb":
         return bpy.ops.import_scene.gltf, bpy.ops.export_scene.gltf
     if path.suffix == ".fbx":
-        return compatibility.fbx_importer(), bpy.ops.export_scene.fbx
+        return compatibility.operator(IMPORTERS[".fbx"]), bpy.ops.export_scene.fbx
     return bpy.ops.wm.usd_import, bpy.ops.wm.usd_export
 
 

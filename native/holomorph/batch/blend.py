@@ -9,12 +9,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from .._native import InvalidMesh
-from ..files import whole_file
+from ..files import formats, whole_file
 from .errors import UsageError
 from .status import DONE, REFUSED
 
 ARRAYS = ".npz"  # vertices, corner_vertices, face_offsets, and seams, the (#S, 2) vertices of the marked edges
-BLEND = ".blend"
 OBJECTS = "objects.json"  # [[name, file, number of corners], ...]
 SCRIPT = Path(__file__).with_name("in_blender.py")
 
@@ -75,8 +74,10 @@ def _run(blender, scene, *arguments):
     """Runs the script in Blender. @throws InvalidMesh where it ends with an error"""
     options = ["--background", "--factory-startup", "--disable-autoexec", "--python-exit-code", "3"]
     file = [] if scene is None else [str(Path(scene).absolute())]
-    opened = [path for path in file if path.lower().endswith(BLEND)]  # the script imports others
-    command = [blender, *options, *opened, "--python", str(SCRIPT), "--", *map(str, [*file, *arguments])]
+    importers = [name for path in file for name in formats.IMPORTERS[Path(path).suffix.lower()]]
+    opened = [] if importers else file
+    command = [blender, *options, *opened, "--python", str(SCRIPT), "--"]
+    command += [*file, *map(str, arguments), *importers]
     run = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
     if run.returncode != 0:
         said = [line for line in run.stderr.splitlines() if line.strip()] or ["nothing"]

@@ -3,7 +3,8 @@
 blender -b FILE.blend --python in_blender.py -- FILE.blend read FOLDER
 blender -b [FILE.blend] --python in_blender.py -- [FILE.blend] write MESH.npz TARGET.blend OBJECT
 
-A file of another program (glTF, FBX, USD) is named after -- alone, and imported.
+A file of another program (glTF, FBX, USD) is named after -- alone. Names of operators at the end, such as
+import_scene.fbx, say what imports it: the first that there is.
 """
 
 import json
@@ -14,31 +15,29 @@ import bpy
 import numpy as np
 
 MAP = "Holomorphic"
-GLTF = (".glb", ".gltf")
 IMPORTER_HELPERS = "glTF_not_exported"  # the collection of shapes of bones, which the glTF importer makes
 
 
-def open_scene(path):
+def open_scene(path, importers):
     """Imports what is no .blend file. Blender goes on with an empty scene where it cannot read one."""
-    kind = Path(path).suffix.lower()
-    if kind != ".blend":
+    if importers:
         bpy.data.batch_remove(list(bpy.data.objects))
+        if "bool" not in vars(np):  # glTF's of Blender 3.4 uses it, NumPy 1.24 beside it in Debian has it not
+            np.bool = bool
         try:
-            importer(kind)(filepath=str(path))
+            importer(importers)(filepath=str(path))
         except (RuntimeError, AttributeError) as error:  # the latter where Blender was built without it
             sys.exit(f"this Blender cannot import it: {str(error).strip().splitlines()[-1]}")
     elif Path(bpy.data.filepath) != Path(path):
         sys.exit("this is not a .blend file that this Blender reads")
 
 
-def importer(kind):
-    if kind in GLTF:
-        if "bool" not in vars(np):  # the importer of Blender 3.4 uses it, NumPy 1.24 beside it in Debian has it not
-            np.bool = bool
-        return bpy.ops.import_scene.gltf
-    if kind == ".fbx":
-        return bpy.ops.wm.fbx_import if bpy.app.version >= (5, 0, 0) else bpy.ops.import_scene.fbx
-    return bpy.ops.wm.usd_import
+def importer(names):
+    """The first of these operators that this Blender has, or the last."""
+    for room, name in (each.split(".") for each in names):
+        if name in dir(getattr(bpy.ops, room)):
+            break
+    return getattr(getattr(bpy.ops, room), name)
 
 
 def is_helper(obj):
@@ -46,9 +45,9 @@ def is_helper(obj):
     return any(collection.name.startswith(IMPORTER_HELPERS) for collection in obj.users_collection)
 
 
-def read(path, folder):
+def read(path, folder, *importers):
     """One .npz file for each mesh object with faces, as it is seen: scaled, without modifiers."""
-    open_scene(path)
+    open_scene(path, importers)
     bpy.context.view_layer.update()  # the objects' matrices
     meshes = [obj for obj in bpy.data.objects if obj.type == "MESH" and len(obj.data.polygons) and not is_helper(obj)]
     listed = []
@@ -80,12 +79,12 @@ def values(elements, name, kind, columns=1):
     return found if columns == 1 else found.reshape(-1, columns)
 
 
-def write(path, arrays, target, name):
+def write(path, arrays, target, name, *importers):
     """Saves the file, or a new one, with the maps on the object `name`."""
     if path is None:
         bpy.data.batch_remove(list(bpy.data.objects))
     else:
-        open_scene(path)
+        open_scene(path, importers)
     with np.load(arrays) as found:
         mesh = new_mesh(name, found) if path is None else bpy.data.objects[name].data
         maps = [name for name in found.files if name == "uv" or name.startswith("uv_")]

@@ -8,10 +8,11 @@ import stat
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..files import formats
 from .errors import UsageError
 
 MESHES = (".obj", ".off", ".ply", ".stl")
-SCENES = (".blend", ".glb", ".gltf", ".fbx", ".usd", ".usda", ".usdc", ".usdz")  # which Blender reads
+SCENES = tuple(formats.IMPORTERS)
 LIST = ".txt"  # one path or pattern per line, from the list's own folder on; lines with # are comments
 KINDS = f"a folder, a pattern, a list ({LIST}), a scene ({', '.join(SCENES)}) or a mesh file ({', '.join(MESHES)})"
 

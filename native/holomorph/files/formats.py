@@ -98,6 +98,14 @@ def glb(surface, uv=None, image=None):
 WRITERS = {"obj": obj, "ply": ply, "glb": glb}
 TEXTURED = ("glb",)
 
+# Files of scenes, which Blender reads, and its operators for that, of which a version has one or more.
+IMPORTERS = {
+    ".blend": (),
+    **dict.fromkeys((".glb", ".gltf"), ("import_scene.gltf",)),
+    ".fbx": ("wm.fbx_import", "import_scene.fbx"),
+    **dict.fromkeys((".usd", ".usda", ".usdc", ".usdz"), ("wm.usd_import",)),
+}
+
 
 def text_of(template, rows):
     """The text of all rows of an array, each as the template has it."""
