@@ -19,8 +19,7 @@ from .maps import arrangement, report
 from .quality import distortion
 from .packing import layout
 from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
-from .maps.automatic_map import automatic_map
-from .maps.automatic_maps import automatic_maps
+from .maps.automatic_map import automatic_map, automatic_maps
 from .maps.automatic_structure import AnyStructure, automatic_structure
 from .forms.bounded import BoundedStructure
 from .tiles.cells import Cells

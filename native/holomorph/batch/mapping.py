@@ -7,7 +7,7 @@ import numpy as np
 
 from .._native import Error, TopologyError
 from ..maps import arrangement
-from ..maps.automatic_maps import automatic_maps
+from ..maps.automatic_map import automatic_maps
 from ..maps.automatic_structure import automatic_structure
 from ..maps.map import Map
 from ..maps.report import part_report, refused_report, skipped_report

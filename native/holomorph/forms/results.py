@@ -22,8 +22,7 @@ from ..mesh.checks import checked_evenness, real_number
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from ..tiling.tiling import Tiler
-from ..tiling.tiling_options import Poles, asked_poles
-from ..tiling.tilings import Tiling
+from ..tiling.tilings import Poles, Tiling, asked_poles
 from ..tiling.turned import LATTICE, TurnedTiler, check_fits
 from .solver_report import Residuals, SolverReport
 

@@ -1,20 +1,24 @@
-"""The pieces of a part between its hard edges, and those that whole tiles would suit better than flat islands."""
+"""The pieces of a part between its hard edges, and those that whole tiles would suit better than flat islands.
+Windows in tubes, such as where a handle is fixed, are closed for the map.
+"""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..core import arrays
 from ..core.array_types import Flags, Integers, Reals
 from ..cutting.hard_edges import TIP, bends, curvature, seen
 from ..cutting.island_cuts import edges_between, in_one_orientation
 from ..cutting.island_layout import Islands
 from ..mesh.cut_open import cut_open
-from ..mesh.edges import edge_keys
+from ..mesh.edges import around_boundary, boundary_edges, edge_keys
 from ..mesh.origin import Origin
 from ..mesh.surface import Surface
 from ..quality.appearance import cost
 from ..quality.quality import Quality
+from .map import Map
 from .untiled import FLAT, MOST_CURVED, MOST_SOFT
 
 REST = -1  # name of polygons that are looked at with others
@@ -22,6 +26,7 @@ SPECK = 0.01  # part of the area: less than that beside a piece does not divide 
 WORTH = 0.03  # part of the area, from which on a piece is looked at by itself
 SMOOTH = 1.0  # radians of curvature without tips, from which on a piece that is not a tube is more than sheets, cones
 TUBES = 0.5  # part of the area of a part without islands, from which on its tubes are looked at
+ENDS = 2  # the longest boundary loops of a tube
 
 
 @dataclass(frozen=True)
@@ -102,3 +107,47 @@ def _piece(part, name, flat, threads):
     is_seam = np.isin(edge_keys(part.vertex_index[native.edges], count), edge_keys(flat.seams, count)) & is_inner
     soft = float((native.edge_lengths * seen(bends(part)))[is_seam].sum())
     return Piece(part, name, uv, cost(quality, 0, soft / math.sqrt(part.area))), soft, cost(quality)
+
+
+def is_tube(surface: Surface) -> bool:
+    """Whether the surface is a sphere with two holes."""
+    return (surface.genus, surface.boundary_count) == (0, ENDS)
+
+
+def closed(surface: Surface) -> Surface:
+    """The surface with one more polygon, at the end, in each boundary loop but the `ENDS` longest; itself where there
+    are no more. Vertices, polygons and corners keep their numbers.
+
+    Raises InvalidMesh where a window is not a polygon.
+    """
+    start, end = boundary_edges(surface).T
+    names = _loops(start, end, len(surface.vertices))
+    sides = np.linalg.norm(surface.vertices[end] - surface.vertices[start], axis=1)
+    loops, first = np.unique(names, return_inverse=True)
+    lengths = np.bincount(first, np.round(sides / sides.max(), 9))
+    windows = loops[np.lexsort((loops, -lengths))][ENDS:]
+    if not len(windows):
+        return surface
+    polygons = [around_boundary(surface, start[names == name])[::-1] for name in windows]
+    corners = np.concatenate([surface.corner_vertices, *polygons])
+    offsets = np.concatenate([surface.face_offsets, len(surface.corner_vertices) + np.cumsum([*map(len, polygons)])])
+    return Surface.from_polygons(surface.vertices, corners, offsets)._standing_as(surface)
+
+
+def opened(made: Map, surface: Surface) -> Map:
+    """The tiling of a surface with closed windows, on the surface itself."""
+    if made.surface is surface:
+        return made
+    uv = arrays.frozen(made.uv[: len(surface.corner_vertices)])
+    quality = replace(Quality.of(surface._native, uv, 0), unseen_angle=made.quality.unseen_angle)
+    return replace(made, surface=surface, uv=uv, quality=quality, tiling=replace(made.tiling, uv=uv, quality=quality))
+
+
+def _loops(start, end, count):
+    """The lowest vertex of the loop of each edge, by pointer doubling."""
+    following = np.arange(count)
+    following[start] = end
+    lowest = np.minimum(np.arange(count), following)
+    for _ in range(len(start).bit_length()):
+        lowest, following = np.minimum(lowest, lowest[following]), following[following]
+    return lowest[start]

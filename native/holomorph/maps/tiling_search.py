@@ -5,16 +5,23 @@ from __future__ import annotations
 import math
 import numbers
 from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from .._native import InvalidMesh, SolverError, TopologyError
+from ..core import arrays
 from ..core.array_types import Progress
 from ..core.progress import scaled
 from ..mesh.surface import Surface
+from ..quality.quality import Quality
+from ..tiling.tilings import Tiling, generators
+from .arrangement import on_grid
 from .automatic_structure import AnyStructure
 from .map import Map
 from .request import Request
 from .size import is_in, nearest, relative_size, window_around
-from .stretched import stretched
 
 REFUSALS = InvalidMesh, TopologyError, SolverError  # what is said about one part, others go on
 Refusal = InvalidMesh | TopologyError | SolverError
@@ -30,6 +37,8 @@ ROUNDED = 0.9
 UNEVEN, MORE_POLES, MOST_POLES, FEW_TRIANGLES, MANY_TILES = 1.73, 2, 16, 5000, 60
 
 MOST_TURNED = 0.5  # radians from the direction that is asked for, where no whole tiles of one size are nearer to it
+MOST_STRETCHED = 1.35  # factor: whole tiles around a limb, from three on, are never further from the wanted size
+ALONG = 1e-9  # sine of an angle that is rounding
 
 
 class TilingSearch:
@@ -154,3 +163,31 @@ class TilingSearch:
                 f"it would lose {100 * lost:.2g} % of its area, as the mesh is too coarse: subdivide it"
             )
         return Map.of_tiling(self.surface, self._structure, made)
+
+
+def stretched(tiling: Tiling, factor: float, lattice: str | ArrayLike) -> Tiling | None:
+    """The tiling with this multiple of its density, stretched across its jumps where these all run along one line, as
+    around a limb with a pole at each end: no seam shows all the same. None where there are jumps both ways, or it would
+    be stretched by more than `MOST_STRETCHED`.
+
+    factor : more than 0; lattice : of the tiling, as in `Structure.tile`
+    """
+    jumps = np.concatenate([tiling.residues, tiling.periods @ np.array(generators(lattice))])
+    if not len(jumps) or not 1 / MOST_STRETCHED <= factor <= MOST_STRETCHED:
+        return None
+    line = jumps[np.abs(jumps).argmax()]
+    if not np.all(np.abs((np.conj(line) * jumps).imag) <= ALONG * abs(line) ** 2):
+        return None
+    # Both sides of a cut are as far across the line, exactly, and are shifted by the same.
+    across = np.array([-line.imag, line.real])
+    shift = ((factor - 1) / abs(line) ** 2) * (tiling.uv @ across)[:, None] * across
+    uv = arrays.frozen(tiling.uv + on_grid(shift))
+    return replace(tiling, uv=uv, tiles=factor * tiling.tiles, quality=_scaled(tiling.quality, uv, factor))
+
+
+def _scaled(before, uv, factor):
+    """The `Quality` where all areas are multiplied. Their quantiles are, too: measured again, rounding might take
+    another of two triangles between which the median is."""
+    area, median = arrays.frozen(factor * before.area), factor * before.median_density
+    same = {"density_ratio": before.density_ratio, "unseen_angle": before.unseen_angle}
+    return replace(Quality.of(before._triangulation, uv, 1), area=area, median_density=median, **same)

@@ -16,7 +16,7 @@ from ..core.array_types import Integers, Reals
 from ..core.value import Value, counted, quoted
 from ..mesh.checks import check_options, real_number
 from ..mesh.surface import Surface
-from ..tiling.tiling_options import MOST_PER_TILE
+from ..tiling.tilings import MOST_PER_TILE
 from .relief_normals import normals
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from ..core.array_types import Integers, Progress, Reals
 from ..core.value import Value, counted, quoted
 from ..mesh.checks import check_options, check_type
 from ..mesh.surface import Surface
-from ..tiling.tiling_options import MOST_PER_TILE, generators
+from ..tiling.tilings import MOST_PER_TILE, generators
 from .cells import Cells
 from .lines import Lines
 from .places import Places

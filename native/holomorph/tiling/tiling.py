@@ -17,9 +17,18 @@ from ..core.value import counted, quoted
 from ..mesh.checks import SOLVERS, check_name, check_threads, checked_evenness, only_component, real_number
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
-from .direction import along
-from .tiling_options import Poles, asked_poles, generators, is_straight, own_allowed, own_poles
-from .tilings import PlacedPoles, Rounding, Tiling
+from .tilings import (
+    PlacedPoles,
+    Poles,
+    Rounding,
+    Tiling,
+    along,
+    asked_poles,
+    generators,
+    is_straight,
+    own_allowed,
+    own_poles,
+)
 
 
 class Tiler:

@@ -1,15 +1,30 @@
-"""Seamless tilings: UV maps of even density whose jumps all are symmetries of the texture."""
+"""Seamless tilings, UV maps of even density whose jumps are symmetries of the texture; and what is asked of them."""
 
 from __future__ import annotations
 
+import math
+import numbers
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 import numpy as np
 
+from .._native import InvalidMesh, TopologyError
+from ..core import arrays
 from ..core.array_types import Complexes, Integers, Reals
-from ..core.value import Value, counted
+from ..core.value import Value, counted, quoted
+from ..mesh.checks import own_vertices
+from ..mesh.edges import has_angle_on_one_boundary
 from ..quality.quality import Quality
 from ..quality.verdicts import Verdict, verdict
+
+LATTICES = {"square": (1, 1j), "brick": (1, 0.5 + 1j), "hex": (1, 0.5 + 0.5j * math.sqrt(3))}
+BOUNDARIES = ("automatic", "straight", "free")
+MOST_POLES, MOST_PER_TILE = 1000, 1000
+Poles: TypeAlias = str | int | Sequence[int] | Integers  # "auto", a number, or vertices
+UPRIGHT = "upright"
+UP = {"Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}  # by `Surface.up`
 
 
 @dataclass(frozen=True, repr=False)
@@ -105,3 +120,87 @@ class PlacedPoles(Value):
 
     def _facts(self):
         return [counted(len(self.vertices), "pole"), f"size range {self.size_range:.4g}"]
+
+
+def asked_poles(poles):
+    """(count or None, chosen vertices). @throws ValueError or InvalidMesh for anything else"""
+    if isinstance(poles, str):
+        if poles != "auto":
+            raise ValueError(f'poles is {quoted(poles)}; "auto", a number or a list of vertices is needed')
+        return None, []
+    if isinstance(poles, numbers.Real):
+        if not 0 <= poles <= MOST_POLES or poles != int(poles):
+            raise ValueError(f"poles is {quoted(poles)}; a whole number from 0 to {MOST_POLES} is needed")
+        return int(poles), []
+    vertices = arrays.integer(poles, "poles")
+    return len(vertices), vertices
+
+
+def own_poles(surface, component, vertices):
+    """Like `own_vertices`; refuses a pole that is given twice."""
+    own = own_vertices(surface, component, vertices, "pole")
+    given, times = np.unique(np.asarray(vertices, int), return_counts=True)
+    for vertex in given[times > 1]:
+        raise TopologyError(f"pole {vertex} is given twice")
+    return own
+
+
+def own_allowed(allowed, surface, component):
+    """Where poles may be, by the component's vertices; [] for anywhere. @throws ValueError"""
+    if allowed is None:
+        return []
+    allowed = np.asarray(allowed, bool)
+    count = surface._native.vertex_count
+    if allowed.shape != (count,):
+        raise ValueError(f"allowed has the shape {allowed.shape}; ({count},) is needed")
+    own = allowed if component is surface else allowed[component.vertex_index]
+    if not own.any():
+        raise ValueError("allowed leaves no vertex for a pole")
+    return own.tolist()
+
+
+def is_straight(boundary, component, evened):
+    """Whether the boundary of a tiling is to be straight. @throws ValueError"""
+    if boundary not in BOUNDARIES:
+        raise ValueError(f"boundary is {quoted(boundary)}; one of {', '.join(BOUNDARIES)} is needed")
+    if boundary == "automatic":
+        return not (evened and has_angle_on_one_boundary(component))
+    return boundary == "straight"
+
+
+def generators(lattice):
+    """The two generators of a lattice as complex numbers. @throws ValueError"""
+    if isinstance(lattice, str):
+        if lattice not in LATTICES:
+            raise ValueError(f"lattice is {quoted(lattice)}; one of {', '.join(LATTICES)} or a 2 x 2 matrix is needed")
+        return tuple(complex(z) for z in LATTICES[lattice])
+    matrix = arrays.numbers(lattice, "lattice")
+    if matrix.shape != (2, 2) or not np.isfinite(matrix).all():
+        raise ValueError(f"lattice has the shape {matrix.shape}; a finite 2 x 2 matrix is needed")
+    if abs(np.linalg.det(matrix)) <= 1e-9 * np.abs(matrix).max() ** 2:
+        raise ValueError("lattice is singular: its columns, the translations of the texture, must be independent")
+    return complex(*matrix[:, 0]), complex(*matrix[:, 1])
+
+
+def along(direction, turn, surface):
+    """(vector or None, turn or None) of a tiling of `surface`: u is to run along the vector and be rotated by `turn`.
+
+    direction : None, (3,) numbers, or "upright": u then runs along what is up (`Surface.up`) and is turned by a
+        quarter, so that v runs up as far as it can. A surface without positions is not turned: it knows no direction
+    turn : radians, or None
+
+    Raises ValueError for another direction; InvalidMesh for a vector on a surface without positions."""
+    if isinstance(direction, str):
+        if direction != UPRIGHT:
+            raise ValueError(f'direction is {quoted(direction)}; "{UPRIGHT}", three numbers or None is needed')
+        return (list(UP[surface.up]), math.pi / 2 + (turn or 0.0)) if surface.vertices is not None else (None, turn)
+    return (None if direction is None else _vector(direction, surface)), turn
+
+
+def _vector(direction, surface):
+    if surface.vertices is None:
+        raise InvalidMesh("an intrinsic surface, without positions, has no direction in space; use turn")
+    vector = arrays.numbers(direction, "direction")
+    if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
+        raise ValueError(f"direction is {quoted(direction)}; three numbers, not all 0, are needed")
+    return vector.tolist()

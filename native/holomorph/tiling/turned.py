@@ -14,9 +14,7 @@ from ..core.value import quoted
 from ..mesh.checks import check_threads, checked_evenness, only_component, real_number
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
-from .direction import UPRIGHT, along
-from .tiling_options import LATTICES
-from .tilings import Rounding, Tiling
+from .tilings import LATTICES, UPRIGHT, Rounding, Tiling, along
 
 TURNS = (1, 2, 4, 6)
 LATTICE = {2: "square", 4: "square", 6: "hex"}  # of which a turn by this part of a full one is a symmetry

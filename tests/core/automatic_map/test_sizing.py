@@ -9,8 +9,7 @@ from holomorph.maps.map import Map
 from holomorph.maps.map_objects import map_objects
 from holomorph.maps.request import Request
 from holomorph.maps.size import LIKE_SIZE, SizePolicy, best_window, is_in, window_around
-from holomorph.maps.stretched import MOST_STRETCHED, stretched
-from holomorph.maps.tiling_search import UNEVEN, TilingSearch
+from holomorph.maps.tiling_search import MOST_STRETCHED, UNEVEN, TilingSearch, stretched
 from holomorph.quality.distortion import drawn_densities
 from solved import surface_of
 

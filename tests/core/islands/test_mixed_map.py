@@ -7,9 +7,8 @@ import pytest
 from holomorph import Surface, automatic_map, automatic_maps
 from holomorph.cutting.island_cuts import sides_of
 from holomorph.maps.arrangement import Arrangement, arranged
-from holomorph.maps.pieces import Piece, cut_apart
+from holomorph.maps.pieces import Piece, closed, cut_apart, opened
 from holomorph.maps.report import part_report
-from holomorph.maps.tubes import closed, opened
 from holomorph.quality.quality import Quality
 from solved import surface_of
 
