@@ -69,7 +69,7 @@ from .tiles.tiled_surface import TiledSurface
 from .tiling.tiling import Tiler, place_poles
 from .tiling.tilings import PlacedPoles, Rounding, Tiling
 from .quality.verdicts import UNEVEN, Verdict, overall, verdict
-from .forms.zeros import Zeros
+from .forms.form_structure import Zeros
 
 __all__ = [
     "AnyStructure",

@@ -8,9 +8,9 @@ import os
 import pytest
 from any_names import any_entries, any_names
 from batch_runs import command, outputs, run, statuses, torus_obj
-from holomorph.batch import places, sources
+from holomorph.batch import sources
 from holomorph.batch.journal import Journal
-from holomorph.batch.plan import Plan, of_source
+from holomorph.batch.plan import LONGEST, LONGEST_PART, Plan, of_source, told_apart
 from holomorph.batch.recipe import Recipe
 from holomorph.commands.console import shown
 
@@ -130,17 +130,17 @@ def test_paths(letter):
     """Folders of names of any length are short enough, plain, and each its own in any case; a folder's has two more."""
     stems = {(letter * length).encode("utf-8", "surrogateescape")[:251] for length in LENGTHS}
     names = [os.fsdecode(stem) + suffix for stem in sorted(stems) for suffix in (".obj", ".OBJ", "")]
-    paths = places.told_apart([*names, *(f"{name}/x.obj" for name in names)], of_source)
+    paths = told_apart([*names, *(f"{name}/x.obj" for name in names)], of_source)
     assert len({path.lower() for path in paths.values()}) == 2 * len(names)
     for path in paths.values():
-        assert path.isascii() and len(path) <= places.LONGEST and not set('<>:"\\|?*') & set(path)
-        assert all(0 < len(part) <= places.LONGEST_PART + 2 and part[-1] not in ". " for part in path.split("/"))
+        assert path.isascii() and len(path) <= LONGEST and not set('<>:"\\|?*') & set(path)
+        assert all(0 < len(part) <= LONGEST_PART + 2 and part[-1] not in ". " for part in path.split("/"))
     assert {of_source(path) for path in ("props/chair.obj", "a b.blend")} == {"props/chair.obj", "a b.blend"}
 
 
 def test_paths_of_deep_folders():
     deep = "環/" * 500
-    assert len(of_source(f"{deep}a.obj")) <= places.LONGEST
+    assert len(of_source(f"{deep}a.obj")) <= LONGEST
     assert of_source(f"{deep}a.obj") != of_source(f"{deep}環/a.obj")
 
 
@@ -158,7 +158,7 @@ def test_no_path_of_a_name_is_one_within_another():
         "sub/",
         "sub/^",
     ]
-    paths = places.told_apart(names, of_source)
+    paths = told_apart(names, of_source)
     for path in paths.values():
         assert not [other for other in paths.values() if other != path and other.startswith(f"{path}/")]
     assert len(set(paths.values())) == len(names)

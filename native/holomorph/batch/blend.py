@@ -10,8 +10,7 @@ from tempfile import TemporaryDirectory
 
 from .._native import InvalidMesh
 from ..files import formats, whole_file
-from .errors import UsageError
-from .status import DONE, REFUSED
+from .errors import DONE, REFUSED, UsageError
 
 ARRAYS = ".npz"  # vertices, corner_vertices, face_offsets, and seams, the (#S, 2) vertices of the marked edges
 OBJECTS = "objects.json"  # [[name, file, number of corners], ...]

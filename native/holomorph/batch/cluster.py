@@ -12,9 +12,8 @@ from pathlib import Path
 
 import distributed
 
-from .errors import EngineError, UsageError
+from .errors import CRASHED, EngineError, UsageError
 from .journal import publish, stored
-from .status import CRASHED
 from .workers import MEMORY_SHARE, Limits, Stopped, Worker, machine_memory
 
 CONNECT_SECONDS = 10.0

@@ -10,11 +10,10 @@ from pathlib import Path
 from ..commands.console import Parser, failed, shown, tell
 from ..quality.verdicts import LEVELS
 from . import blend, progress, recipe, sources, workers
-from .errors import EngineError, StorageError, UsageError
+from .errors import DONE, EngineError, StorageError, UsageError
 from .journal import Journal, stored, storing
 from .overview import Overview, counts
 from .plan import Plan
-from .status import DONE
 
 ALL_DONE, SOME_FAILED, USAGE, STRICT, STORAGE, ENGINE, MACHINE = range(7)  # exit codes; see docs/batch/results.md
 UNITS = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}

@@ -10,8 +10,8 @@ from urllib.parse import quote
 
 from ..commands.console import shown
 from ..quality.verdicts import LEVELS, Verdict
+from .errors import DONE
 from .journal import noted
-from .status import DONE
 
 TEMPLATE = Path(__file__).with_name("overview.html")
 PLACE = "/*ENTRIES*/"  # in the template

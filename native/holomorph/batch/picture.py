@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..files import checker, indexed_png
+from ..files import textures
 
 SIZE = 192  # pixels of a side; pages show it smaller, which smooths it
 MARGIN = 6.0  # pixels
@@ -10,7 +10,7 @@ VIEW = np.array([0.55, 0.35, 1.0])  # from where one looks, y up
 LIGHT = np.array([0.2, 0.45, 1.0])  # in the frame of the picture: right, up, towards the viewer
 SHADES = 64
 AMBIENT = 0.35  # the darkest shade
-COLOURS = np.array([*checker.COLOURS, (150, 150, 158)])  # what has no map is grey
+COLOURS = np.array([*textures.COLOURS, (150, 150, 158)])  # what has no map is grey
 BACKGROUND = SHADES * len(COLOURS)  # in the palette, transparent
 DEPTHS = 2**30  # steps of the z-buffer
 
@@ -28,9 +28,9 @@ def png(surface, uv, is_mapped, up):
     image = np.full(SIZE * SIZE, BACKGROUND, np.uint8)
     pixels, winners = _visible(corners[seen], planes)
     if len(pixels):
-        squares = checker.squares(surface, uv, is_mapped)
+        count = textures.squares(surface, uv, is_mapped)
         u, v = (_at(planes[winners, axis], pixels) for axis in (1, 2))
-        colour = ((np.floor(u * squares) + np.floor(v * squares)) % 2).astype(np.uint8)
+        colour = ((np.floor(u * count) + np.floor(v * count)) % 2).astype(np.uint8)
         colour[~is_mapped[seen[winners]]] = 2
         image[pixels] = colour * SHADES + _shades(normals[seen[winners]])
     return _encoded(image.reshape(SIZE, SIZE)[::-1])
@@ -117,4 +117,4 @@ def _encoded(image):
     shades = AMBIENT + (1 - AMBIENT) * np.arange(SHADES) / (SHADES - 1)
     lit = (COLOURS[:, None, :] * shades[None, :, None]).astype(np.uint8).reshape(-1, 3)
     palette = np.append(lit, np.zeros((1, 3), np.uint8), axis=0)
-    return indexed_png.encoded(image, palette, b"\xff" * BACKGROUND + b"\0")
+    return textures.indexed_png(image, palette, b"\xff" * BACKGROUND + b"\0")

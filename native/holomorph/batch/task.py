@@ -14,8 +14,8 @@ from ..files import formats, textures
 from ..maps.conformal_image import conformal_image
 from ..maps.report import repairs_report, whole_report
 from . import blend, mapping, picture
+from .errors import DONE, REFUSED
 from .recipe import Recipe
-from .status import DONE, REFUSED
 
 
 @dataclass(frozen=True)

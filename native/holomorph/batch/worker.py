@@ -16,9 +16,8 @@ import numpy as np
 
 from .. import Surface, conformal_structure
 from ..core import unexpected
-from .errors import StorageError
+from .errors import CRASHED, MEMORY, StorageError
 from .journal import publish, storing
-from .status import CRASHED, MEMORY
 
 FAULT = "fault.txt"  # beside the record of an asset: what is to be sent
 

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from multiprocessing import Pipe
 from pathlib import Path
 
+from .errors import CRASHED, MEMORY, TIME
 from .journal import publish
-from .status import CRASHED, MEMORY, TIME
 
 MEMORY_SHARE = 0.8  # part of a machine's memory, for all its workers together
 START = Path(__file__).with_name("start.py").absolute()

@@ -3,7 +3,7 @@
 import json
 
 from .. import Error, Surface
-from ..core.plain_data import plain
+from ..core.value import plain
 from ..files import whole_file
 from ..moduli.equivalence import VERDICTS, conformally_equivalent
 from .console import Parser, failed, tell, warn

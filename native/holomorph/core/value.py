@@ -1,5 +1,6 @@
 """What all results have in common: they are values, which never change."""
 
+import math
 from abc import ABC, abstractmethod
 from functools import cached_property
 from typing import Any, ClassVar
@@ -78,3 +79,17 @@ class Solution:
 
     def __getstate__(self):
         return {"compute": self.compute}
+
+
+def plain(value: object) -> Any:
+    """Dictionaries, sequences, arrays and numbers as JSON has them: complex ones are [real, imaginary], and what is not
+    finite is None."""
+    if isinstance(value, dict):
+        return {str(name): plain(entry) for name, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(entry) for entry in value]
+    if isinstance(value, (np.ndarray, np.generic)):
+        return plain(value.tolist())
+    if isinstance(value, complex):
+        return [plain(value.real), plain(value.imag)]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

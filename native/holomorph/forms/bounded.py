@@ -11,7 +11,7 @@ import numpy as np
 from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import Bounds, Integers, Reals
-from ..core.plain_data import plain
+from ..core.value import plain
 from .certificate import certain_text
 from .form_structure import CertifiedStructure
 from .solver_report import BoundedResiduals

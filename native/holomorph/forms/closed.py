@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..core import arrays
 from ..core.array_types import Complexes, Integers, Reals
-from ..core.plain_data import plain
+from ..core.value import plain
 from .form_structure import CertifiedStructure
 from .solver_report import ClosedResiduals
 

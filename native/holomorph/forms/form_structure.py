@@ -9,16 +9,38 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _native
+from .._native import InvalidMesh
 from ..core import arrays
 from ..core.array_types import Bounds, Complexes, Integers, Progress, Reals
+from ..core.value import Value, counted
 from ..mesh.checks import checked_coefficients
-from ..mesh.vectors import vectors
 from .certificate import Certificate, certificate
 from .fundamental_domain import FundamentalDomain, domain_and_tree
 from .narrow_bounds import Refinement
 from .results import Structure
 from .solver_report import MemoryPlan, SolverReport
-from .zeros import Zeros
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Zeros(Value):
+    """The zeros of a differential, where its UV map branches.
+
+    vertices : (k,) vertices of the surface. A zero that the mesh spreads over vertices and flipped triangles that touch
+        is one, named by the vertex with the largest part; those in the star of a pole are named by a vertex around
+        it
+    orders : (k,) integers: around the vertex the map turns 2 pi (order + 1); on a boundary pi (order + 1). On a closed
+        surface their sum is 2g - 2, with p poles 2g - 2 + p, exactly; with b boundary loops the orders on them and
+        twice the others are 4g - 4 + 2b + 2p together. A negative order is a defect of a coarse
+        map: beside it, zeros are too many
+    positions : (k, 3) of the vertices; None on an intrinsic surface
+    """
+
+    vertices: Integers
+    orders: Integers
+    positions: Reals | None
+
+    def _facts(self):
+        return [counted(len(self.vertices), "zero"), f"the sum of their orders {int(self.orders.sum())}"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -190,3 +212,24 @@ class CertifiedStructure(FormStructure):
     def certificate(self) -> Certificate:
         """`Certificate`: the bounds, whether they are proven for the surface as given, and what was measured."""
         return certificate(self)
+
+
+def vectors(surface, form):
+    """(#T, 3) the tangent vector X of each triangle with X . e = form(e) on its sides, for a closed form, (#E,) real or
+    complex: of sides 0 and 2, which start and end at the first corner. NaN in triangles without area.
+
+    Raises InvalidMesh for an intrinsic surface, which has no tangent vectors in space.
+    """
+    if surface.intrinsic:
+        raise InvalidMesh("vectors need positions, and this surface has edge lengths only")
+    first, second, third = np.moveaxis(surface.vertices[surface.triangles], 1, 0)
+    ahead, back = second - first, third - first
+    normal = np.cross(ahead, back)
+    sides = surface.triangle_edges[:, [0, 2]]
+    start, end = surface.triangles[:, [0, 0]], surface.triangles[:, [1, 2]]
+    along = np.where(start < end, form[sides], -form[sides])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        field = along[:, :1] * np.cross(back, normal) + along[:, 1:] * np.cross(normal, ahead)
+        field /= (normal**2).sum(axis=1)[:, None]
+    field[~np.isfinite(field)] = np.nan
+    return arrays.frozen(field)

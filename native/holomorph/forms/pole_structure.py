@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core import arrays
 from ..core.array_types import Complexes, Integers, Reals
-from ..core.plain_data import plain
+from ..core.value import plain
 from .form_structure import FormStructure
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.plain_data import plain
+from ..core.value import plain
 from ..forms.form_structure import CertifiedStructure
 from ..quality.quality import Quality
 from ..quality.verdicts import SMALL_PART, Verdict, overall

@@ -14,7 +14,7 @@ from ..core import arrays
 from ..core.array_types import FilePath, Integers, Reals
 from ..core.value import Value, freeze
 from ..files import formats
-from . import checked_mesh, pickled_surface
+from . import checked_mesh
 from .origin import AS_GIVEN
 from .repairs import Refused, Repairs
 
@@ -129,12 +129,12 @@ class Surface(Value):
         return [f"{count} {noun}" for count, noun in counts]
 
     def __getstate__(self):
-        mesh = pickled_surface.arrays_of(self._native)
+        mesh = checked_mesh.arrays_of(self._native)
         return {"mesh": mesh, "origin": self._origin, "dual_vertex": self.dual_vertex}
 
     def __setstate__(self, state):
         freeze(state)
-        self._adopt(pickled_surface.native_of(state["mesh"]), state["origin"])
+        self._adopt(checked_mesh.native_of(state["mesh"]), state["origin"])
         self.dual_vertex = state["dual_vertex"]
 
     @cached_property

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..core import arrays
 from ..core.array_types import Complexes, Integers, Progress, Reals
-from ..core.plain_data import plain
+from ..core.value import plain
 from ..forms.results import Structure
 from ..forms.solver_report import SolverReport
 from ..mesh.checks import checked_coefficients

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from holomorph import Surface
 from holomorph.__main__ import main
-from holomorph.files import checker, indexed_png
+from holomorph.files import textures
 from mesh_files import obj
 from solved import solved, surface_of
 
@@ -117,7 +117,7 @@ def test_a_checker_is_drawn_for_the_map(tmp_path):
         media_type, content = Glb(tmp_path / "ring.glb").image
         image = np.array(PIL.open(io.BytesIO(content)).convert("RGB"))
         assert media_type == "image/png" and image.shape[0] == image.shape[1]
-        assert tuple(image[-1, 0]) == checker.COLOURS[0] and tuple(image[0, 0]) == checker.COLOURS[1]
+        assert tuple(image[-1, 0]) == textures.COLOURS[0] and tuple(image[0, 0]) == textures.COLOURS[1]
         count = 1 + np.count_nonzero((image[-1, 1:] != image[-1, :-1]).any(axis=1))
         assert len(image) % count == 0 and count % 2 == 0
         counts.append(count)
@@ -129,7 +129,7 @@ def test_a_checker_is_drawn_for_the_map(tmp_path):
 def test_pngs_are_what_was_drawn():
     image = np.random.default_rng(5).integers(0, 3, (7, 5)).astype(np.uint8)
     palette = np.array([[1, 2, 3], [40, 50, 60], [255, 0, 128]], np.uint8)
-    found = PIL.open(io.BytesIO(indexed_png.encoded(image, palette, b"\xff\x00")))
+    found = PIL.open(io.BytesIO(textures.indexed_png(image, palette, b"\xff\x00")))
     assert (np.array(found.convert("RGBA"))[..., :3] == palette[image]).all()
     assert (np.array(found.convert("RGBA"))[..., 3] == np.array([255, 0, 255])[image]).all()
 

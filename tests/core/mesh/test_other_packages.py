@@ -6,7 +6,7 @@ import families
 import numpy as np
 import pytest
 from holomorph import InvalidMesh, Surface
-from holomorph.mesh.other_packages import given_polygons
+from holomorph.mesh.checked_mesh import given_polygons
 from mesh_files import obj
 
 TORUS = families.torus(8, 5, shape="triangles")
