@@ -45,13 +45,12 @@ from .cutting.island_layout import Islands
 from .cutting.island_map import island_map
 from .cutting.islands import islands
 from .levels.levels import LevelOfDetail
-from .tiles.lines import Lines
 from .forms.log_map import log_map
 from .maps.map import Map, form_map
 from .maps.mixed import Mixed
 from .forms.narrow_bounds import Refinement
 from .packing.layout import Frame, frame, place
-from .tiles.places import Places
+from .tiles.places import Lines, Places
 from .plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
 from .forms.pole_structure import PoleStructure
 from .levels.progressive import ProgressiveMesh

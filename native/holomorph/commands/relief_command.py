@@ -7,10 +7,9 @@ import numpy as np
 from .. import Error, InvalidMesh, Map, Surface, TopologyError, automatic_maps
 from ..files import printing, whole_file
 from ..mesh.checks import check_options, real_number
-from ..tiles.coarse import with_room
 from ..tiles.height_image import height_image
 from ..tiles.relief import LEAST_PART, check_choices, checked_depth, checked_heights, joined, plain, stretched_sentence
-from ..tiles.shells import outward, turned_sentence
+from ..tiles.shells import outward, turned_sentence, with_room
 from .console import Parser, failed, tell, warn
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3

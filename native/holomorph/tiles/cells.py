@@ -12,7 +12,7 @@ from ..core import arrays
 from ..core.array_types import Flags, Integers, Reals
 from ..core.value import counted
 from ..mesh.edges import edge_keys, following_corners
-from .surface_points import SurfacePoints
+from .places import SurfacePoints
 
 if TYPE_CHECKING:
     from .tiled_surface import TiledSurface

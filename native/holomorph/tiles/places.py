@@ -1,20 +1,43 @@
-"""Regular places in the tiles of a surface."""
+"""Points on the tiles of a surface: regular places, and lines."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..core import arrays
-from ..core.array_types import Integers, Reals
-from ..core.value import counted
-from .surface_points import SurfacePoints
+from ..core.array_types import Flags, Integers, Reals
+from ..core.value import Value, counted
 
 if TYPE_CHECKING:
     from .tiled_surface import TiledSurface
+
+
+class SurfacePoints(Value):
+    """Base of what lies on a `TiledSurface`, its points given by triangles and coordinates there."""
+
+    triangles: Integers
+    barycentric: Reals
+    tiled: TiledSurface
+
+    def of(self, values: ArrayLike) -> NDArray[Any]:
+        """(n, ...) values at the points, of (#V, ...) values at the vertices of the surface, such as its positions in
+        another pose."""
+        return np.einsum("ni,ni...->n...", self.barycentric, np.asarray(values)[self._corners])
+
+    @cached_property
+    def positions(self) -> Reals:
+        """(n, 3) positions in space."""
+        return arrays.frozen(self.of(self.tiled.surface.vertices))
+
+    @cached_property
+    def _corners(self):
+        """(n, 3) vertices."""
+        return self.tiled.surface.triangles[self.triangles]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -93,3 +116,29 @@ class Places(SurfacePoints):
 
 def _unit(vectors):
     return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Lines(SurfacePoints):
+    """Result of `TiledSurface.lines`: polylines on the surface, with a point on each edge that they cross. All arrays
+    are read-only.
+
+    offsets : (#L + 1,) line l has the points from ``offsets[l]`` to ``offsets[l + 1]``
+    is_closed : (#L,) bool: the last point is joined to the first. Others end on the boundary, at the star of a pole, or
+        at a vertex where the map branches or folds on a line
+    triangles : (n,) of `surface.triangles`, in which each point lies, on an edge
+    barycentric : (n, 3) coordinates there
+    tiled : the `TiledSurface`
+    """
+
+    offsets: Integers
+    is_closed: Flags
+    triangles: Integers
+    barycentric: Reals
+    tiled: TiledSurface
+
+    def __len__(self) -> int:
+        return len(self.is_closed)
+
+    def _facts(self):
+        return [counted(len(self), "line"), f"{int(self.is_closed.sum())} closed"]

@@ -1,4 +1,6 @@
-"""The closed shells of a mesh, each the right way round: outer ones outwards, hollows in them inwards."""
+"""Solids before they are carved: closed shells each the right way round, outer ones outwards, hollows in them inwards;
+and with triangles small enough.
+"""
 
 import numpy as np
 
@@ -6,6 +8,7 @@ from ..mesh.surface import Surface
 from .relief import volume
 
 SAMPLES = 5  # vertices of a shell that decide whether it lies inside another one, by most of them
+FEW = 200  # triangles: the star of a pole is to be a small part of all
 
 
 def outward(surface):
@@ -57,3 +60,21 @@ def _turned(surface, parts):
     back = np.where(np.repeat(is_wrong, ends - starts), np.repeat(starts + ends - 1, ends - starts) - corners, corners)
     arrays = surface.vertices, surface.corner_vertices[back], surface.face_offsets
     return Surface.from_polygons(*arrays, strict=False)._standing_as(surface)
+
+
+def with_room(surface):
+    """A closed part without handles with its triangles cut in four, at the midpoints of their sides, until they are not
+    few; others as they are."""
+    if surface.genus or surface.boundary_count:
+        return surface
+    while len(surface.triangles) < FEW:
+        surface = _quartered(surface)
+    return surface
+
+
+def _quartered(surface):
+    native, corners = surface._native, surface.triangles
+    middle = len(surface.vertices) + native.triangle_edges  # of the sides from each corner to the next
+    at_corners = np.stack([corners, middle, np.roll(middle, 1, axis=1)], axis=2).reshape(-1, 3)
+    middles = surface.vertices[native.edges].mean(axis=1)
+    return Surface(np.concatenate([surface.vertices, middles]), np.concatenate([at_corners, middle]))

@@ -19,8 +19,7 @@ from ..mesh.checks import check_options, check_type
 from ..mesh.surface import Surface
 from ..tiling.tilings import MOST_PER_TILE, generators
 from .cells import Cells
-from .lines import Lines
-from .places import Places
+from .places import Lines, Places
 from .relief import Relief, raised
 
 

@@ -9,9 +9,8 @@ import solids
 from heights import dots
 from holomorph import Surface, height_image
 from holomorph.__main__ import main
-from holomorph.tiles.coarse import FEW, with_room
 from holomorph.tiles.relief import volume
-from holomorph.tiles.shells import outward
+from holomorph.tiles.shells import FEW, outward, with_room
 from solved import surface_of
 
 PIL = pytest.importorskip("PIL.Image")
