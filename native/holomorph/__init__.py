@@ -41,6 +41,7 @@ from .tiles.height_image import height_image
 from .mesh.holes import punch_holes
 from .moduli.igusa import IgusaInvariants, igusa_invariants
 from .tiling.image_lattice import ImageLattice, image_lattice
+from .tiling.image_turns import ImageTurns, image_turns
 from .cutting.island_layout import Islands
 from .cutting.island_map import island_map
 from .cutting.islands import islands
@@ -90,6 +91,7 @@ __all__ = [
     "Hyperelliptic",
     "IgusaInvariants",
     "ImageLattice",
+    "ImageTurns",
     "Islands",
     "InvalidMesh",
     "LevelOfDetail",
@@ -149,6 +151,7 @@ __all__ = [
     "hyperelliptic",
     "igusa_invariants",
     "image_lattice",
+    "image_turns",
     "island_map",
     "islands",
     "layout",

@@ -71,7 +71,7 @@ def image_lattice(pixels: ArrayLike) -> ImageLattice:
     >>> print(holomorph.image_lattice(pixels))
     <ImageLattice: Tiles; rows shifted by 1/4, 64 cells in the image>
     """
-    values = _checked(pixels)
+    values = checked(pixels)
     height, width = values.shape[:2]
     jumps = (_jump(values.transpose(1, 0, 2)), _jump(values))
     differing = [name for name, jump in zip(BORDERS, jumps) if jump > JUMP]
@@ -93,7 +93,7 @@ def image_lattice(pixels: ArrayLike) -> ImageLattice:
     )
 
 
-def _checked(pixels):
+def checked(pixels):
     """(h, w, c) reals from -1 to 1, colours times opacity."""
     values = np.asarray(pixels)
     values = values[:, :, None] if values.ndim == 2 else values
@@ -119,11 +119,11 @@ def _jump(values):
         if count < 2 * LEAST_CONTINUED:
             break
         count //= 2
-        values = _reduced(_reduced(values, count).swapaxes(0, 1), max(1, values.shape[1] // 2)).swapaxes(0, 1)
+        values = reduced(reduced(values, count).swapaxes(0, 1), max(1, values.shape[1] // 2)).swapaxes(0, 1)
     return float(worst)
 
 
-def _reduced(values, count):
+def reduced(values, count):
     """Means of this number of bands of lines, as equal as they can be."""
     begins = np.arange(count) * len(values) // count
     sizes = np.diff(np.append(begins, len(values)))
@@ -137,7 +137,7 @@ def _identity():
 def _translations(values):
     """(2, 2) fractions of the image's sides, the first column along u."""
     for _ in range(2):
-        values = _reduced(values, min(len(values), MOST_PIXELS)).swapaxes(0, 1)
+        values = reduced(values, min(len(values), MOST_PIXELS)).swapaxes(0, 1)
     frequencies, power = _spectrum(values)
     basis, allowed = _identity(), OFF_LATTICE * power.sum()
     while len(power):

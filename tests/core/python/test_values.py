@@ -127,6 +127,7 @@ EXAMPLES = {
     "ProgressiveMesh": lambda: ProgressiveMesh(surface_of(CLOSED["torus of quads"]), corner_data=np.arange(432 * 4)),
     "Cut": lambda: holomorph.Cut("touching", np.arange(3), np.empty((0, 2), int), np.empty(0, int)),
     "ImageLattice": lambda: holomorph.image_lattice(np.kron([[0, 1], [1, 0]], np.ones((8, 8)))),
+    "ImageTurns": lambda: holomorph.image_turns(np.kron([[0, 1], [1, 0]], np.ones((8, 8)))),
     "CoarsePlace": lambda: holomorph.CoarsePlace(times=9.0, vertex=3),
     "Refused": lambda: holomorph.Refused(np.arange(3), "edge 1 has 3 faces"),
 }

@@ -121,6 +121,7 @@ def calls():
         "height_image": (holomorph.height_image, {"path": "none.png"}),
         "igusa_invariants": (holomorph.igusa_invariants, {"structure": structure}),
         "image_lattice": (holomorph.image_lattice, {"pixels": np.random.default_rng(1).random((32, 32))}),
+        "image_turns": (holomorph.image_turns, {"pixels": np.random.default_rng(1).random((32, 32))}),
         "island_map": (holomorph.island_map, {"surface": disk}),
         "islands": (holomorph.islands, {"surface": disk}),
         "log_map": (holomorph.log_map, {"surface": surface, "poles": [0, 20]}),
