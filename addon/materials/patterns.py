@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The patterns of the textures, each on one unit square of UV space and seamless at its borders. Arrays only, no bpy.
 
-Every formula has period 1 in u and in v. Colours are linear RGB; heights go from 0 to 1.
+Every formula has period 1 in u and in v. Colours are linear RGB; heights go from 0 to 1. What is on both sides of a
+joint may look the same after a half turn: then all of the picture does, also its noise, about the corner of the square.
 """
 
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import periodic
-from .periodic import chance, grid, mix, noise, shade, smoothstep
+from .periodic import chance, grid, mirrored, mix, noise, paired, shade, smoothstep
 
 SIZE = 1024  # pixels across an image
 CELLS = 8  # numbered tiles across
@@ -61,19 +62,20 @@ def _sign(name, pixels):
 def bricks(size):
     """A running bond of four bricks by eight courses, in lime mortar."""
     across, along, joint = 4, 8, 0.055
-    wobble = 0.012 * noise(size, 11, 12, 12)
+    wobble = 0.012 * noise(size, 11, 12, 12, parity=-1)
     x, y = grid(size)
     y = y * along + wobble
     row = np.floor(y).astype(int) % along
-    x = x * across + row / 2 + 0.5 * wobble.T
+    x = x * across + row / 2 + 0.25 + 0.5 * wobble.T
     column = np.floor(x).astype(int) % across
     edge = np.minimum(2 * np.minimum(x % 1, 1 - x % 1), np.minimum(y % 1, 1 - y % 1))
-    edge = edge + 0.008 * noise(size, 12, 30, 30, 2)
+    edge = edge + 0.008 * noise(size, 12, 30, 30, 2, parity=1)
     brick = smoothstep(joint, joint + 0.06, edge)
-    grain, pits = noise(size, 13, 20, 20, 1.6), smoothstep(1.7, 2.6, noise(size, 14, 90, 90, 2))
-    tint, tone = chance(15, along, across)[row, column], chance(16, along, across)[row, column]
+    grain = noise(size, 13, 20, 20, 1.6, parity=1)
+    pits = smoothstep(1.7, 2.6, noise(size, 14, 90, 90, 2, parity=1))
+    tint, tone = paired(15, along, across)[row, column], paired(16, along, across)[row, column]
     clay = mix(mix((0.32, 0.085, 0.045), (0.48, 0.16, 0.075), tint), (0.15, 0.05, 0.04), smoothstep(0.78, 1.0, tone))
-    clay = shade(clay, (1 + 0.10 * grain + 0.05 * noise(size, 17, 4, 4)) * (1 - 0.5 * pits))
+    clay = shade(clay, (1 + 0.10 * grain + 0.05 * noise(size, 17, 4, 4, parity=1)) * (1 - 0.5 * pits))
     mortar = shade(np.full((size, size, 3), (0.50, 0.46, 0.39)), 0.9 + 0.06 * grain - 0.25 * smoothstep(0, joint, edge))
     dome = smoothstep(joint - 0.01, 0.3, edge)
     height = 0.15 + 0.02 * grain + brick * (0.55 + 0.18 * dome + 0.1 * (tint - 0.5) - 0.12 * pits + 0.01 * grain)
@@ -110,16 +112,17 @@ def weave(size):
     """Plain weave of sixteen threads each way, light over dark."""
     count = 16
     x, y = grid(size)
-    wobble = 0.025 * noise(size, 31, 10, 10)
-    warp, weft = x * count + wobble, y * count + wobble.T
+    wobble = 0.025 * noise(size, 31, 10, 10, parity=-1)
+    warp, weft = x * count + 0.5 + wobble, y * count + 0.5 + wobble.T  # a crossing lies at the corner
     is_over = (np.floor(warp) + np.floor(weft)) % 2 == 0  # the thread along u
     across_u, across_v = 2 * (weft % 1) - 1, 2 * (warp % 1) - 1
     side = np.where(is_over, across_u, across_v)
     run = np.where(is_over, across_v, across_u)
     round_, crown = np.sqrt(np.clip(1 - (side / 0.98) ** 2, 0, 1)), np.cos(np.pi / 2 * run)
-    along_u, along_v = noise(size, 32, 3, 200, 2), noise(size, 33, 200, 3, 2)
+    along_u, along_v = noise(size, 32, 3, 200, 2, parity=1), noise(size, 33, 200, 3, 2, parity=1)
     twist = np.where(is_over, along_u, along_v)
     thread = np.where(is_over, np.floor(weft) % count, np.floor(warp) % count).astype(int)
+    thread = np.minimum(thread, count - thread)  # opposite ones have one colour
     tint = np.where(is_over, chance(34, count)[thread], chance(35, count)[thread])
     light = mix((0.62, 0.56, 0.44), (0.74, 0.69, 0.58), tint)
     dark = mix((0.035, 0.10, 0.16), (0.06, 0.15, 0.22), tint)
@@ -133,17 +136,18 @@ def planks(size):
     boards = 8
     x, y = grid(size)
     row = (y * boards).astype(int)
-    start = (np.arange(boards) * 0.381966 + 0.1 * chance(41, boards)) % 1
+    way = np.where(np.arange(boards) < boards // 2, 1, -1)  # of a half turn, which takes each board to another one
+    start = (way * mirrored(np.arange(boards) * 0.381966 + 0.1 * chance(41, boards))) % 1
     x, y = np.broadcast_arrays((x - start[row]) % 1, (y * boards) % 1)
     row = np.broadcast_to(row, x.shape)
     gap = np.minimum(np.minimum(x, 1 - x) * boards, np.minimum(y, 1 - y))
-    pick = chance(42, boards, 2)
-    bend, fine = noise(size, 43, 2.2, 9, 3), noise(size, 44, 8, 260, 2)
-    pores = smoothstep(1.1, 2.2, noise(size, 45, 14, 330, 3))
-    shift = (pick[:, 0] * size).astype(int)
+    pick = mirrored(chance(42, boards, 2))
+    bend, fine = noise(size, 43, 2.2, 9, 3, parity=-1), noise(size, 44, 8, 260, 2, parity=1)
+    pores = smoothstep(1.1, 2.2, noise(size, 45, 14, 330, 3, parity=1))
+    shift = way * (pick[:, 0] * size).astype(int)
     lines = np.arange(size)
     bend = bend[(lines[:, None] + shift[row]) % size, lines[None, :]]
-    rings = 0.5 + 0.5 * np.sin(2 * np.pi * (3.2 * (y - 0.5 + pick[row, 1]) + 0.9 * bend))
+    rings = 0.5 + 0.5 * np.cos(2 * np.pi * (3.2 * (y - 0.5 + (way * pick[:, 1])[row]) + 0.9 * bend))
     wood = mix((0.40, 0.20, 0.085), (0.24, 0.105, 0.04), rings**2)
     wood = shade(wood, (0.72 + 0.5 * pick[row, 1]) * (1 + 0.07 * fine) * (1 - 0.45 * pores))
     board = smoothstep(0.012, 0.045, gap)
@@ -168,14 +172,17 @@ def hexagons(size):
         is_nearer = distance < near
         near, edge = np.where(is_nearer, distance, near), np.where(is_nearer, inside, edge)
         at = np.where(is_nearer, _cell(x - dx, row, across, rows), at)
+    cells = np.arange(rows * across)
+    opposite = _cell(-(cells % across) - cells // across / 2, -(cells // across), across, rows)
+    at = np.minimum(at, opposite[at])  # both have one colour
     tint, kind = chance(51, rows * across)[at], chance(52, rows * across)[at]
-    cloud = noise(size, 53, 12, 12)
+    cloud = noise(size, 53, 12, 12, parity=1)
     glaze = mix((0.03, 0.13, 0.17), (0.05, 0.21, 0.24), tint)
     glaze = np.where((kind > 0.72)[..., None], mix((0.55, 0.50, 0.41), (0.68, 0.63, 0.53), tint), glaze)
     glaze = np.where((kind > 0.92)[..., None], mix((0.50, 0.22, 0.05), (0.60, 0.28, 0.07), tint), glaze)
     glaze = shade(glaze, (1 + 0.07 * cloud) * (1 - 0.3 * smoothstep(0.10, 0.02, edge)))
     tile = smoothstep(0.024, 0.04, edge)
-    grout = shade(np.full((size, size, 3), (0.42, 0.41, 0.38)), 0.9 + 0.06 * noise(size, 54, 200, 200, 1))
+    grout = shade(np.full((size, size, 3), (0.42, 0.41, 0.38)), 0.9 + 0.06 * noise(size, 54, 200, 200, 1, parity=1))
     height = 0.2 + tile * (0.45 + 0.3 * smoothstep(0.02, 0.14, edge) + 0.02 * cloud)
     return Pattern(mix(grout, glaze, tile), height)
 
@@ -194,13 +201,14 @@ class Texture(NamedTuple):
     roughness: float = 0.5
     relief: float = 0.0  # greatest height, in sides of the unit square
     across: int = 16  # cells that span an object where no number is asked for: fewer the more there is to see in one
+    turns: int = 1  # 2 or 4: it looks the same after a half or a quarter turn about the corner of the square
 
 
 TEXTURES = {
     "NUMBERED": Texture(numbered, CELLS, 0.6),
-    "BRICKS": Texture(bricks, 4, 0.85, 0.012),
+    "BRICKS": Texture(bricks, 4, 0.85, 0.012, turns=2),
     "SCALES": Texture(scales, 4, 0.35, 0.04),
-    "WEAVE": Texture(weave, 16, 0.9, 0.010, 64),
-    "PLANKS": Texture(planks, 8, 0.55, 0.006),
-    "HEXAGONS": Texture(hexagons, 7, 0.18, 0.006),
+    "WEAVE": Texture(weave, 16, 0.9, 0.010, 64, turns=4),
+    "PLANKS": Texture(planks, 8, 0.55, 0.006, turns=2),
+    "HEXAGONS": Texture(hexagons, 7, 0.18, 0.006, turns=2),
 }

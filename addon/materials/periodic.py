@@ -14,20 +14,34 @@ def grid(size):
     return middles[None, :], middles[:, None]
 
 
-def noise(size, seed, across=4.0, along=4.0, power=3.0):
+def noise(size, seed, across=4.0, along=4.0, power=3.0, parity=0):
     """(size, size) noise of mean 0 and deviation 1; from `across` waves per side in u and `along` in v on its spectrum
-    falls with `power`."""
+    falls with `power`. A half turn about the corner leaves it as it is where `parity` is 1, changes its sign where it
+    is -1."""
     white = np.fft.rfft2(np.random.default_rng(seed).standard_normal((size, size)))
     u, v = np.fft.rfftfreq(size, 1 / size)[None, :], np.fft.fftfreq(size, 1 / size)[:, None]
     white *= (1 + (u / across) ** 2 + (v / along) ** 2) ** (-power / 2)
     white[0, 0] = 0
     waves = np.fft.irfft2(white, s=(size, size))
+    if parity:
+        waves = waves + parity * waves[::-1, ::-1]
     return waves / waves.std()
 
 
 def chance(seed, *shape):
     """Random numbers from 0 to 1, one for each cell of a pattern."""
     return np.random.default_rng(seed).random(shape)
+
+
+def mirrored(values):
+    """The same with the first half of the rows again, backwards, as the second: those of an even number."""
+    half = values[: len(values) // 2]
+    return np.concatenate([half, half[::-1]])
+
+
+def paired(seed, *shape):
+    """Random numbers for cells of which a half turn takes each to the one with the opposite index: both have one."""
+    return mirrored(chance(seed, *shape).ravel()).reshape(shape)
 
 
 def smoothstep(low, high, x):
