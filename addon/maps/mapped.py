@@ -33,6 +33,7 @@ class TileOptions:
     # Bytes of the bools that tell where poles may be that are not chosen; None for anywhere.
     allowed: bytes | None = None
     evenness: float = 0.5  # from 0 for angles to 1 for squares of one size
+    turns: int = 1  # 2, 4 or 6: the sides of a cut may turn by this part of a full turn
     moved: tuple = ()  # (index of a pole in its part's tiling, vertex to which it was dragged)
 
     @property
@@ -253,7 +254,8 @@ def _requests(components, options):
         evenness=wanted.evenness,
         amounts=options.amounts,
         phases=options.phases,
-        options={"lattice": wanted.lattice, "boundary": wanted.boundary, "turn": wanted.turn or None},
+        options={name: getattr(wanted, name) for name in ("lattice", "boundary", "turns")}
+        | {"turn": wanted.turn or None},
     )
     return [asked.of_structure(part) for part in components]
 

@@ -43,6 +43,25 @@ def across(texture):
     return CHECKER_ACROSS if texture == CHECKER else TEXTURES[texture].across
 
 
+CHECKER_TURNS = 4  # the checker looks the same after a quarter turn, about the middle of a square
+USUAL_CHECKER_TURNS = 1  # of a map for it where no turns are chosen: what a first click makes is only shifted
+
+
+def turns(texture, own=None):
+    """2, 4 or 6: a texture looks the same after this part of a full turn; 1: after none.
+
+    own : `user_texture.Own` of the user's
+    """
+    if own is not None:
+        return own.turns
+    return CHECKER_TURNS if texture == CHECKER else TEXTURES[texture].turns
+
+
+def usual_turns(texture, own=None):
+    """The turns of a map for a texture where none are chosen."""
+    return USUAL_CHECKER_TURNS if texture == CHECKER and own is None else turns(texture, own)
+
+
 @dataclass(frozen=True)
 class Look:
     """What is shown of a map."""
@@ -52,6 +71,7 @@ class Look:
     unit_length: float  # on the surface, of a UV unit
     is_tiling: bool = False  # whether the map is cut by whole units: such a map has a material of its own
     own: Own | None = None  # the texture of the user's
+    is_turned: bool = False  # whether the sides of its cuts turn: about the corners of tiles, where the centre lies
 
     @property
     def repeats(self):
@@ -65,7 +85,7 @@ def showing(map_name, is_attribute, look):
     if look.own is not None:
         return _showing_own(map_name, is_attribute, look)
     name = f"{map_name} {textures.label(look.texture)}" + (" (attribute)" if is_attribute else "")
-    name += " (tiling)" if look.is_tiling else ""
+    name += " (turned)" if look.is_turned else " (tiling)" if look.is_tiling else ""
     material = bpy.data.materials.get((name, None))
     is_new = material is None or OURS not in material or material.node_tree is None
     if is_new:
@@ -74,7 +94,7 @@ def showing(map_name, is_attribute, look):
     if look.texture == CHECKER:
         if is_new:
             nodes.build_checker(material, map_name, is_attribute)
-        nodes.adjust_checker(material, look.cells)
+        nodes.adjust_checker(material, look.cells, look.is_turned)
     else:
         if is_new:
             nodes.build_texture(material, look.texture, map_name, is_attribute)
@@ -84,7 +104,7 @@ def showing(map_name, is_attribute, look):
 
 def _showing_own(map_name, is_attribute, look):
     own, block = look.own, look.own.block
-    shows = f"{own.kind} {own.name} {map_name} {is_attribute} {look.is_tiling}"
+    shows = f"{own.kind} {own.name} {map_name} {is_attribute} {look.is_tiling}{' turned' * look.is_turned}"
     if own.kind == MATERIAL:
         material = block.copy()
         material.use_fake_user = False

@@ -14,10 +14,12 @@ DARK = (0.03, 0.11, 0.15)  # linear RGB, deep teal
 SCALE_NODE = "Checker Scale"
 MAP_NODE = "Checker Map"
 IMAGE_NODE = "Checker Image"
+SHIFT_NODE = "Checker Shift"
 SQUARES_NODE = "Squares in Image"
 REPEATS_NODE = "Repeats"
 RELIEF_NODE = "Relief"
 HEIGHT_NODE = "Image Height"  # of an image of the user's, in its width
+CENTRE_NODE = "Image Centre"  # of its turns, at the corners of tiles
 PREVIEW_NODE = "Preview"
 
 
@@ -92,7 +94,9 @@ def build_checker(material, map_name, is_attribute):
     checker.inputs["Color2"].default_value = (*DARK, 1.0)
     per_image = tree.node("ShaderNodeMath", -720, -200, SQUARES_NODE, operation="DIVIDE")
     picture = tree.node("ShaderNodeTexImage", -360, -60, IMAGE_NODE, interpolation="Closest")
-    tree.link(vector, checker.inputs["Vector"])
+    moved = tree.node("ShaderNodeVectorMath", -540, 200, SHIFT_NODE, operation="ADD")
+    tree.link(vector, moved.inputs[0])
+    tree.link(moved.outputs[0], checker.inputs["Vector"])
     tree.link(scale.outputs[0], checker.inputs["Scale"])
     tree.link(checker.outputs[0], tree.shader(0.45).inputs["Base Color"])
     tree.link(scale.outputs[0], per_image.inputs[0])
@@ -100,14 +104,18 @@ def build_checker(material, map_name, is_attribute):
     tree.show_in_solid_view(picture)
 
 
-def adjust_checker(material, squares):
+def adjust_checker(material, squares, is_centred=False):
+    """`is_centred`: the middle of a square lies at the corners of the UV square, instead of a corner."""
     nodes = material.node_tree.nodes
     if not all(name in nodes for name in (SCALE_NODE, IMAGE_NODE, SQUARES_NODE)):
         return  # the user has rebuilt them
-    image, shown = textures.checker_image(squares, LIGHT, DARK)
+    image, shown = textures.checker_image(squares, LIGHT, DARK, is_centred)
     nodes[SCALE_NODE].outputs[0].default_value = squares
     nodes[IMAGE_NODE].image = image
     nodes[SQUARES_NODE].inputs[1].default_value = shown
+    if SHIFT_NODE in nodes:  # not in materials of older versions
+        shift = 0.5 / squares if is_centred else 0.0
+        nodes[SHIFT_NODE].inputs[1].default_value = (shift, shift, 0)
 
 
 def build_texture(material, texture, map_name, is_attribute):
@@ -171,6 +179,8 @@ def build_plain(material, shown):
         places = tree.node("ShaderNodeMapping", -720, 100)
         along, height = (nodes[name].outputs[0].default_value for name in (REPEATS_NODE, HEIGHT_NODE))
         places.inputs["Scale"].default_value = (along, along / height, 1)
+        if CENTRE_NODE in nodes:
+            places.inputs["Location"].default_value = nodes[CENTRE_NODE].inputs[1].default_value
         tree.link(vector, places.inputs["Vector"])
         vector = places.outputs[0]
     tree.link(vector, picture.inputs["Vector"])

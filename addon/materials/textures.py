@@ -43,15 +43,19 @@ def preview_image(texture, repeats):
     return _image(name, f"{texture} {repeats}", lambda: _srgb(_repeated(texture, repeats)))
 
 
-def checker_image(squares, light, dark):
-    """An even number of squares across, as near to `squares` as there is; and that number."""
-    squares = min(max(2 * round(squares / 2), 2), CHECKER_SIZE)
-    return _image(f"Holomorph Checker {squares}", f"checker {squares}", lambda: _squares(squares, light, dark)), squares
+def checker_image(squares, light, dark, is_centred=False):
+    """An even number of squares across, as near to `squares` as there is; and that number. Where it is centred, the
+    middle of a square lies at the corner."""
+    squares = min(max(2 * round(squares / 2), 2), CHECKER_SIZE // 2 if is_centred else CHECKER_SIZE)
+    end = " centred" * is_centred
+    drawn = functools.partial(_squares, squares, light, dark, is_centred)
+    return _image(f"Holomorph Checker {squares}{end}", f"checker {squares}{end}", drawn), squares
 
 
-def _squares(squares, light, dark):
+def _squares(squares, light, dark, is_centred):
     width = CHECKER_SIZE // squares
-    place = np.arange(squares * width) // width
+    width -= width % 2 if is_centred else 0
+    place = (np.arange(squares * width) + (width // 2 if is_centred else 0)) // width
     is_light = (place[:, None] + place[None, :]) % 2 == 0
     return _srgb(np.where(is_light[..., None], light, dark))
 

@@ -4,14 +4,14 @@
 import functools
 import math
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 
 from .. import compatibility, native
 from ..native import holomorph
 from ..scene import image_io
-from .nodes import HEIGHT_NODE, IMAGE_NODE, OURS, REPEATS_NODE, Tree
+from .nodes import CENTRE_NODE, HEIGHT_NODE, IMAGE_NODE, OURS, REPEATS_NODE, Tree
 
 IMAGE, MATERIAL = "IMAGE", "MATERIAL"  # kinds
 AUTOMATIC = "automatic"  # as a lattice: the one that the image has
@@ -30,6 +30,13 @@ class Own:
     height: float = 1.0  # of an image, in its width
     shift: float = 0.0  # by which each row of images lies beside the one below it, in its width
     text: str = ""  # what was found, a sentence
+    turns: int = 1  # 2, 4 or 6: it looks the same after this part of a full turn
+    centre: tuple = (0.0, 0.0)  # about which, in images
+
+    def on_turned(self, turns):
+        """As it lies on a map whose sides turn by this part of a full turn: its centre at the corners of tiles."""
+        height = math.sqrt(3) if turns == 6 else self.height
+        return replace(self, height=height, centre=self.centre if turns != 1 else (0.0, 0.0))
 
     @property
     def block(self):
@@ -57,11 +64,23 @@ def _blocks(kind):
 
 
 def _of_image(own, image, lattice):
-    found = periodicity(image)
+    found, turns = symmetries(image)
     height = image.size[1] / image.size[0]
     if lattice == AUTOMATIC:
-        return Own(own.kind, own.name, _as_tuple(found.lattice), height, text=found.text)
-    return _told(own, lattice, height, found.text)
+        made = Own(own.kind, own.name, _as_tuple(found.lattice), height, text=found.text)
+    else:
+        made = _told(own, lattice, height, found.text)
+    return _with_turns(made, [turns] if found.tiles else [])
+
+
+def _with_turns(own, found):
+    """The `Own` with the turns after which all images look the same: of square ones, or of hexagons."""
+    alike = {(one.turns, one.centre) for one in found}
+    turns, centre = alike.pop() if len(alike) == 1 else (1, (0.0, 0.0))
+    if turns in (2, 4) and own.height != 1:
+        turns, centre = 1, (0.0, 0.0)
+    text = f"{own.text}. {found[0].text}" if found else own.text
+    return replace(own, turns=turns, centre=centre, text=text)
 
 
 def _told(own, lattice, height, text):
@@ -84,13 +103,14 @@ def _of_material(own, material, lattice):
     images = images_of(material.node_tree)
     sizes = {image.size[1] / image.size[0] for image in images}
     height = sizes.pop() if len(sizes) == 1 else 1.0
-    found = [periodicity(image) for image in images]
+    found, turns = zip(*map(symmetries, images)) if images else ((), ())
     text = _text(found)
     if lattice != AUTOMATIC:
         return _told(own, lattice, height, text)
     alike = {_as_tuple(one.lattice) for one in found}
     if len(alike) == 1 and only_images_read(material.node_tree):
-        return Own(own.kind, own.name, alike.pop(), height, text=text)
+        made = Own(own.kind, own.name, alike.pop(), height, text=text)
+        return _with_turns(made, turns if all(one.tiles for one in found) else [])
     return Own(own.kind, own.name, ((1.0, 0.0), (0.0, height)), height, text=text.split(";")[0])
 
 
@@ -112,14 +132,15 @@ def images_of(tree):
     return list(found)
 
 
-def periodicity(image):
-    """The `holomorph.ImageLattice` of an image. @throws ValueError it has no pixels, or is several pictures"""
+def symmetries(image):
+    """The `holomorph.ImageLattice` and the `holomorph.ImageTurns` of an image. @throws ValueError it has no pixels, or
+    is several pictures"""
     reason = _why_not(image)
     if reason:
         raise ValueError(f"{image.name} {reason}")
     pixels = image_io.read_pixels(image)
     try:
-        return _periodicity(_Pixels(pixels))
+        return _symmetries(_Pixels(pixels))
     except ValueError as error:
         raise ValueError(f"{image.name}: {native.sentence(error)}") from error
 
@@ -144,12 +165,12 @@ class _Pixels:
 
 
 @functools.lru_cache(maxsize=16)
-def _periodicity_of(key):
-    return holomorph.image_lattice(key.values)
+def _symmetries_of(key):
+    return holomorph.image_lattice(key.values), holomorph.image_turns(key.values)
 
 
-def _periodicity(pixels):
-    found = _periodicity_of(pixels)
+def _symmetries(pixels):
+    found = _symmetries_of(pixels)
     pixels.values = None  # not kept
     return found
 
@@ -182,6 +203,8 @@ def adjust(material, repeats, own):
     for name, value in _numbers(repeats, own).items():
         if name in nodes:
             nodes[name].outputs[0].default_value = value
+    if CENTRE_NODE in nodes:
+        nodes[CENTRE_NODE].inputs[1].default_value = (*own.centre, 0)
 
 
 def _numbers(repeats, own):
@@ -252,4 +275,9 @@ def _places(tree, vector, repeats, own):
     places = tree.node("ShaderNodeCombineXYZ", -440, 100)
     for value, name in ((along, "X"), (up, "Y")):
         tree.link(value, places.inputs[name])
-    return places.outputs[0]
+    if not any(own.centre):
+        return places.outputs[0]
+    moved = tree.node("ShaderNodeVectorMath", -380, 100, CENTRE_NODE, operation="ADD")
+    moved.inputs[1].default_value = (*own.centre, 0)
+    tree.link(places.outputs[0], moved.inputs[0])
+    return moved.outputs[0]

@@ -54,6 +54,14 @@ TEXTURES = items(
     IMAGE="Your own image; one that is not square keeps its proportions",
     MATERIAL="Your own material: a copy of it reads the map. It is assumed to repeat as its images do",
 )
+TURNS = items(
+    FROM_TEXTURE="As the texture allows, where poles, lattice, rotation and boundary are automatic. The checker does "
+    "not turn yet",
+    NONE="The sides of a cut are only shifted: for letters, arrows, scales and all that has one way up",
+    HALF="The sides may also turn by a half: for bricks, planks and all that looks the same upside down",
+    QUARTER="The sides may also turn by a quarter: for squares, dots, cloth and all that looks the same on its side",
+    SIXTH="The sides may also turn by a sixth: for images that repeat as hexagons do",
+)
 OWN_TEXTURES = {"IMAGE": "images", "MATERIAL": "materials"}  # where Blender has them
 OF_ISLANDS = {"hard_edges", "most_stretch"}
 ABOUT = {
@@ -66,6 +74,8 @@ ABOUT = {
     "must fit. 0: follows from the number of tiles or squares",
     "evenness": "0: squares keep their angles but differ in size. 1: they have one size but are sheared. Poles stay "
     "in place when it changes",
+    "turns": "By what the texture may turn from one side of a cut to the other: squares are then more even, and there "
+    "are no poles. A texture that looks different after the turn shows seams. No effect on islands and maps with seams",
     "seams": "Mark the edges where the maps are cut as seams; existing seams are kept",
     "main": "Kind of the main map",
     "forms": "Largest number of maps of single forms, besides the main one: one for each handle, more with holes",
@@ -134,6 +144,7 @@ class SharedProperties:
     size: FloatProperty(name="Size", description=ABOUT["size"], default=0.0, min=0.0, subtype="DISTANCE", precision=3)
     found: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
     evenness: FloatProperty(name="Evenness", description=ABOUT["evenness"], default=EVENNESS, min=0.0, max=1.0)
+    turns: EnumProperty(name="Turns", description=ABOUT["turns"], items=TURNS, default="FROM_TEXTURE")
     seams: BoolProperty(name="Mark Seams", description=ABOUT["seams"], default=False)
     form_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
     tile_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
@@ -160,7 +171,19 @@ class MapProperties(SharedProperties):
 
     is_tiling = False
     drawn = (
-        ("main", "evenness", "hard_edges", "most_stretch", "density", "equal", "margin", "rotation", "forms", "shown"),
+        (
+            "main",
+            "evenness",
+            "turns",
+            "hard_edges",
+            "most_stretch",
+            "density",
+            "equal",
+            "margin",
+            "rotation",
+            "forms",
+            "shown",
+        ),
         ("checker", "texture", "source", "size", "checker_scale", "seams", "shape"),
         ("use_selection", "modifiers", "residues", "cut_at_seams", "solver"),
     )

@@ -2,12 +2,13 @@
 """What is asked for by the properties of an operator, or by the headless command under the same names, and its run."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from ..maps import mapped
 from ..maps.mapped import TILING, MapOptions, TileOptions
-from ..materials import material
+from ..materials import material, textures
 from ..materials.user_texture import AUTOMATIC, IMAGE, MATERIAL
 from ..results import report, stored, write
 from ..results.write import WriteOptions
@@ -19,6 +20,8 @@ FACES = {"AUTOMATIC": jobs.SELECTED, "FACES": jobs.ASKED}  # by the use of the s
 AXES = "XYZ"
 ALLOWING = 0.5  # weight of a vertex above which a pole may be there
 SQUARES = 4  # of the checker, across an image
+TURNS = {"NONE": 1, "HALF": 2, "QUARTER": 4, "SIXTH": 6}  # others: those of the texture
+TURNED = {2: ("square", "half"), 4: ("square", "quarter"), 6: ("hex", "sixth")}  # lattice that they leave, their name
 # Lattices that quarter turns of a map that is made leave as they are, and so the texture whole. On others it is turned
 # before its jumps are rounded.
 QUARTERED = ("square", ((1.0, 0.0), (0.0, 1.0)))
@@ -36,6 +39,8 @@ class Run:
         options = _tile_options if properties.is_tiling else _map_options
         self._options = [options(properties, target, own) for target in found if not target.refused]
         self._write_options = _write_options(properties, own)
+        turns = {one.tiling.turns for one in self._options}
+        self._notes = [_why_seams(self._write_options.texture, own, k) for k in turns]
 
     def job(self, progress=None):
         """The `jobs.Job` that solves and maps."""
@@ -49,7 +54,9 @@ class Run:
     def write(self, step, job, time_has_passed=False):
         """Writes the results of the job, in a `transaction.Step` of the objects. Returns the `report.Outcome`."""
         results = targets.align(self._found, job.results)
-        return write.write(step, self._found, results, self._write_options, time_has_passed)
+        outcome = write.write(step, self._found, results, self._write_options, time_has_passed)
+        outcome.notes += filter(None, self._notes if outcome.done else [])
+        return outcome
 
 
 def choices(properties):
@@ -83,7 +90,7 @@ def _map_options(properties, _target, own):
         tuple(properties.phases),
         properties.margin,
         properties.main,
-        tiling=tiling,
+        tiling=_turned(properties, own, tiling),
     )
 
 
@@ -108,7 +115,39 @@ def _tile_options(properties, target, own):
         allowed=allowed(properties.pole_group, obj),
         evenness=properties.evenness,
     )
-    return MapOptions(forms=0, main=TILING, tiling=tiling)
+    return MapOptions(forms=0, main=TILING, tiling=_turned(properties, own, tiling))
+
+
+def _turned(properties, own, tiling):
+    """The `TileOptions` with the turns that are asked for; of the texture, where nothing is chosen that they exclude.
+    @throws ValueError something is"""
+    texture = material.CHECKER if properties.texture in (IMAGE, MATERIAL) and own is None else properties.texture
+    turns = TURNS.get(properties.turns) or material.usual_turns(texture, own)
+    if turns == 1:
+        return tiling
+    lattice, name = TURNED[turns]
+    excluded = {
+        "Poles": tiling.poles != "auto" or tiling.allowed is not None,
+        "Lattice": getattr(properties, "lattice", AUTOMATIC) not in (AUTOMATIC, lattice),
+        "Rotation": tiling.turn != 0,
+        "Boundary": tiling.boundary == "straight",
+    }
+    chosen = [dial for dial, is_chosen in excluded.items() if is_chosen]
+    if not chosen:
+        return replace(tiling, turns=turns, lattice=lattice, boundary="automatic")
+    if properties.turns not in TURNS:
+        return tiling
+    raise ValueError(
+        f"a map with {name} turns has no choice of {' and '.join(chosen)}: leave it automatic, or set Turns to None"
+    )
+
+
+def _why_seams(texture, own, turns):
+    """What is told where a texture does not allow the turns of its map, or ""."""
+    if material.turns(texture, own) % turns == 0:
+        return ""
+    name = own.name if own else textures.label(texture)
+    return f"{name} looks different after a {TURNED[turns][1]} turn: seams show where the map turns"
 
 
 def _density(size, repeats):

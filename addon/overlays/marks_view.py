@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Poles and branch points of tilings as dots in the 3D view. Called from draw handlers only.
+"""Poles, branch points and cones of tilings as dots in the 3D view. Called from draw handlers only.
 
 A dot is a disc in space that faces the viewer and has the same size on the screen at every distance.
 """
@@ -12,7 +12,11 @@ from ..results import report, stored
 from ..scene import mesh_io
 from . import on_screen
 
-POLE, ZERO, LIT = (1.0, 0.55, 0.10), (0.95, 0.95, 0.95), (1.0, 0.85, 0.25)  # sRGB
+POLE, ZERO, CONE = range(3)  # kinds of dots
+NAMES = "pole", "branch point", "cone"
+COLOURS = np.array([(1.0, 0.55, 0.10), (0.95, 0.95, 0.95), (0.45, 0.85, 1.0)])  # sRGB
+SIZES = np.array([1.0, 1.0, 0.6])  # there are more cones, and less is to be seen at each
+LIT = (1.0, 0.85, 0.25)
 HOVERED = 1.5  # times as large is the pole under the pointer
 RIM = (0.05, 0.05, 0.05)
 RADIUS, RIM_WIDTH = 6.0, 1.5  # pixels, in a user interface of normal size
@@ -27,16 +31,17 @@ NEARER = 2.0  # radii by which a disc is moved towards the viewer: the faces aro
 
 def draw(context, objects, dragged):
     """`dragged`: see `overlay.dragged`."""
-    points, is_pole, is_hovered = _all_points(objects, dragged)
+    points, kinds, is_hovered = _all_points(objects, dragged)
     if not len(points):
         return
     view = context.region_data
     unit = context.preferences.system.ui_scale
-    radii = RADIUS * unit * pixel_sizes(points, view, context.region.height) * np.where(is_hovered, HOVERED, 1)
+    radii = RADIUS * unit * pixel_sizes(points, view, context.region.height)
+    radii *= SIZES[kinds] * np.where(is_hovered, HOVERED, 1)
     axes = np.array(view.view_matrix.inverted())
     towards = axes[:3, 3] - points if view.is_perspective else np.tile(axes[:3, 2], (len(points), 1))
     towards = radii[:, None] * towards / np.linalg.norm(towards, axis=1, keepdims=True)
-    colours = np.where(is_hovered[:, None], LIT, np.where(is_pole[:, None], POLE, ZERO))
+    colours = np.where(is_hovered[:, None], LIT, COLOURS[kinds])
     colours = np.repeat(colours, 3 * CORNERS, axis=0)
     dots = discs(points + NEARER * towards, radii, axes[:3, :2].T)
     rims = discs(points + NEARER * towards, (1 + RIM_WIDTH / RADIUS) * radii, axes[:3, :2].T)
@@ -52,10 +57,10 @@ def draw(context, objects, dragged):
 
 def draw_legend(context, objects, dragged):
     """What the dots are, and how many there are of each kind."""
-    _, is_pole, _ = _all_points(objects, dragged)
+    _, kinds, _ = _all_points(objects, dragged)
     unit = context.preferences.system.ui_scale
     x, y = context.region.width / 2 + LEGEND[0] * unit, LEGEND[1] * unit
-    for count, noun, colour in legend(is_pole):
+    for count, noun, colour in legend(kinds):
         middle, flat = np.array([[x, y, 0.0]]), np.eye(3)[:2]
         for radius, fill in ((RADIUS + RIM_WIDTH, RIM), (RADIUS, colour)):
             _draw_discs(discs(middle, np.array([radius * unit]), flat), fill, 1.0, "NONE")
@@ -64,31 +69,34 @@ def draw_legend(context, objects, dragged):
         x += on_screen.text_width(words, unit) + 3 * GAP * unit
 
 
-def legend(is_pole):
+def legend(kinds):
     """(number, name, colour) of each kind of dot that there is."""
-    kinds = [(int(np.sum(is_pole)), "pole", POLE), (int(np.sum(~is_pole)), "branch point", ZERO)]
-    return [kind for kind in kinds if kind[0]]
+    counts = np.bincount(kinds, minlength=len(NAMES)).tolist()
+    return [each for each in zip(counts, NAMES, map(tuple, COLOURS)) if each[0]]
 
 
 def _all_points(objects, dragged):
     """The `_points` of all objects together."""
     found = [_points(obj, dragged.get(obj.name)) for obj in objects if obj.get(report.PROPERTY)]
-    nothing = np.empty((0, 3)), np.empty(0, bool), np.empty(0, bool)
+    nothing = np.empty((0, 3)), np.empty(0, np.int64), np.empty(0, bool)
     return tuple(np.concatenate(parts) for parts in zip(nothing, *found))
 
 
 def _points(obj, dragged):
-    """The marks of an object with a report: (n, 3) places in the world, (n,) whether it is a pole, (n,) whether the
-    pointer is on it."""
+    """The marks of an object with a report: (n, 3) places in the world, (n,) kinds, (n,) whether the pointer is on
+    it."""
     vertices, is_pole = stored.marks(obj[report.PROPERTY])
+    kinds = np.where(is_pole, POLE, ZERO)
     if dragged is not None:
         vertices = np.concatenate([dragged.poles, dragged.zeros])
-        is_pole = np.arange(len(vertices)) < len(dragged.poles)
+        kinds = np.where(np.arange(len(vertices)) < len(dragged.poles), POLE, ZERO)
+    cones = stored.cones(obj[report.PROPERTY])
+    vertices, kinds = np.concatenate([vertices, cones]), np.append(kinds, np.full(len(cones), CONE))
     if len(vertices) and vertices.max() >= len(obj.data.vertices):  # the mesh is not what it was
-        vertices, is_pole = vertices[:0], is_pole[:0]
+        vertices, kinds = vertices[:0], kinds[:0]
     hovered = None if dragged is None else dragged.hovered
     is_hovered = np.arange(len(vertices)) == (-1 if hovered is None else hovered)
-    return mesh_io.world_points(obj, vertices), is_pole, is_hovered
+    return mesh_io.world_points(obj, vertices), kinds, is_hovered
 
 
 def pixel_sizes(points, view, height):

@@ -122,7 +122,7 @@ class Outcome:
     notes: list = field(default_factory=list)
     entries: list = field(default_factory=list)
     forms: int = 0
-    looks: dict = field(default_factory=dict)  # `material.Look` of tilings (True) and of other maps, for all objects
+    looks: dict = field(default_factory=dict)  # `material.Look`s for all objects, by whether of tilings, and turned
     coverings: dict = field(default_factory=dict)  # materials by what they show
 
     @property

@@ -13,6 +13,7 @@ from ..maps.mapped import TileOptions
 from ..native import holomorph
 from ..scene import mesh_io
 
+TURNED = holomorph.quality.verdicts.TURNED
 SUMMARISED = 8  # parts that a panel shows
 SHOWN_PERIODS = 4  # likewise, of each part
 
@@ -43,6 +44,11 @@ def marks(stored):
     poles = [vertex for tiling in tilings(stored) for vertex in tiling["poles"]]
     zeros = [vertex for tiling in tilings(stored) for vertex in tiling["zeros"]]
     return np.array(poles + zeros, np.int64), np.arange(len(poles) + len(zeros)) < len(poles)
+
+
+def cones(stored):
+    """(n,) vertices at which the tilings that turn have cones, in the place of poles."""
+    return np.array([vertex for tiling in tilings(stored) for vertex in tiling.get("cones", [])], np.int64)
 
 
 def asked(stored):
@@ -137,6 +143,10 @@ def _sentence(part):
 
 
 def _tiling_lines(tiling):
+    if tiling.get("turns", 1) != 1:
+        yield f"size range {tiling['size_range']:.3g}"
+        yield f"{TURNED[tiling['turns']]}, {len(tiling['cones'])} cones"
+        return
     yield f"angle distortion added by whole tiles: {tiling['added_distortion']:.4f}"
     yield f"size range {tiling['size_range']:.3g}"
     yield f"poles: {len(tiling['poles'])}, branch points: {len(tiling['zeros'])}"

@@ -84,7 +84,7 @@ def _write_object(step, outcome, target, made, options):
     if options.checker:
         shown = _shown(written, options)
         look = _look(made, options, shown is written[0] and bool(made.tiled))
-        look = outcome.looks.setdefault(look.is_tiling, look)
+        look = outcome.looks.setdefault((look.is_tiling, look.is_turned), look)
         covering = outcome.covering(shown, look)
         for each in (obj, *target.find_sharers()):
             material.cover(each, covering)
@@ -129,7 +129,9 @@ def _look(made, options, is_tiling):
     if is_tiling:
         cells = material.cells(options.texture)
         cells *= max(1, round(options.checker_scale / cells))
-        return material.Look(options.texture, cells, made.unit_length, is_tiling=True, own=options.own)
+        turns = max(part.map.turns for part in made.tiled)
+        own = options.own and options.own.on_turned(turns)
+        return material.Look(options.texture, cells, made.unit_length, True, own, turns != 1)
     plain = made.of_forms()
     cells = options.checker_scale
     if options.size and plain.unit_length:

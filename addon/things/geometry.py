@@ -30,6 +30,8 @@ def source(obj):
     if not name:
         raise ValueError(f"{obj.name}: it has no UV map: press Seamless Tiling first")
     asked = stored.asked(obj.get(report.PROPERTY))
+    if len(stored.cones(obj.get(report.PROPERTY))) and name == uv_maps.main_map(obj.data):
+        raise ValueError(f"{obj.name}: its map turns, and tiles are found on maps that do not: set Turns to None")
     uv = uv_maps.read_corners(obj.data, polygons, name).astype(np.float64)
     return polygons, uv, asked.lattice if asked else "square"
 

@@ -125,7 +125,7 @@ def test_the_textures_are_baked_exactly():
     assert tree.nodes["Checker Map"].uv_map == uv_maps.bake_map(obj.data) == "Holomorphic Bake"
     baked, points = image_of("Torus Colour"), Points(obj)
     points.in_middles(baked.size[0])
-    shown = bpy.data.materials["Holomorphic Bricks (tiling)"].node_tree.nodes["Repeats"].outputs[0].default_value
+    shown = bpy.data.materials["Holomorphic Bricks (turned)"].node_tree.nodes["Repeats"].outputs[0].default_value
     wanted = sampled(pixels(image_of("Holomorph Bricks")), points.tiling * shown)
     error = np.abs(sampled(pixels(baked), points.bake, False) - wanted).max(axis=1)
     assert np.quantile(error, 0.99) < 3 * STEP and error.max() < 0.1
@@ -343,7 +343,7 @@ def good():
 REFUSALS = [
     (no_tiling, {}, "Torus: it has no seamless tiling"),
     (no_material, {}, "Torus: it has no material"),
-    (no_colour, {}, "Torus: its material 'Holomorphic Bricks .tiling.' ends in Add Shader"),
+    (no_colour, {}, "Torus: its material 'Holomorphic Bricks .turned.. ends in Add Shader"),
     (no_surface, {}, "Torus: its material 'Own' has no surface"),
     (no_slot, {}, "Torus: no UV map slot is free"),
     (good, {"texels": 0.01}, "Torus: 0.01 texels per metre make an image of 1 texel: at least 16 are possible"),

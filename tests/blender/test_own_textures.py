@@ -276,9 +276,9 @@ def test_numbers_that_are_not_finite():
 
 def test_an_image_is_read_once(monkeypatch):
     picture = image(bricks())
-    first = own.periodicity(picture)
+    first = own.symmetries(picture)
     monkeypatch.setattr(own, "holomorph", None)
-    assert own.periodicity(picture) is first
+    assert own.symmetries(picture) is first
 
 
 def test_poles_are_dragged_under_an_image():

@@ -187,7 +187,7 @@ def on_grid(uv: ArrayLike) -> Reals:
     """Rounds to multiples of a power of two that single precision holds, so that differences by whole numbers stay
     exact."""
     step = 2.0 ** (math.frexp(max(np.abs(uv).max(), 1.0))[1] - SINGLE_BITS)
-    return np.floor(np.asarray(uv) / step + 0.5) * step
+    return np.rint(np.asarray(uv) / step) * step  # ties to even ones: the same on both sides of a turn
 
 
 def _scale(surface, found, density):
@@ -202,15 +202,16 @@ def _unit_of_tilings(tiled):
 
 
 def _write_tilings(tiled, uv, quarters):
-    """Writes tilings side by side, on shelves of whole units."""
+    """Writes tilings side by side, on shelves of whole units; shifts by whole hexagons alone keep sixth turns."""
     turn = np.linalg.matrix_power(QUARTER, quarters % 4)
     turned = [m.uv @ turn for m in tiled]
-    lows = [np.floor(values.min(axis=0)) for values in turned]
-    sizes = np.array([np.ceil(values.max(axis=0)) - low for values, low in zip(turned, lows)])
+    steps = [np.array([1.0, math.sqrt(3) if m.turns == 6 else 1.0]) for m in tiled]
+    lows = [np.floor(values.min(axis=0) / step) * step for values, step in zip(turned, steps)]
+    sizes = np.array([np.ceil(v.max(axis=0) - low + step - 1) for v, low, step in zip(turned, lows, steps)])
     width = max(math.ceil(math.sqrt(np.prod(sizes, axis=1).sum())), sizes[:, 0].max())
     corners, _ = rows(sizes, width, 0.0)
-    for made, values, low, corner in zip(tiled, turned, lows, corners):
-        uv[made.surface.corner_index] = values + (corner - low)
+    for made, values, low, corner, step in zip(tiled, turned, lows, corners, steps):
+        uv[made.surface.corner_index] = values + (np.ceil(corner / step) * step - low)
 
 
 def _write_beside(rest, uv, unit, arrangement):

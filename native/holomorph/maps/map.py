@@ -126,7 +126,8 @@ class Map(Value):
     @property
     def turns(self) -> int:
         """2, 4 or 6 where the UVs may turn by this part of a full turn across a seam, see `Tiling.turns`; else 1."""
-        return self.tiling.turns if self.tiling else 1
+        tilings = [self.tiling] if self.tiling else self.mixed.tilings if self.mixed else []
+        return max((made.turns for made in tilings), default=1)
 
     @property
     def cones(self) -> Integers:

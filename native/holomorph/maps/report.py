@@ -93,6 +93,9 @@ def _tiling_report(made, vertex_index):
             "zeros": vertex_index[zeros],
             "orders": np.asarray(orders),
             "periods": np.asarray(made.periods),
+            "turns": made.turns,
+            "cones": vertex_index[made.cones],
+            "cone_angles": made.cone_angles,
         }
     )
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core import arrays
+from ..core.value import counted
 from ..mesh.checks import ratio
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ SMALL_PART = 0.01  # part of the area of all parts: worse maps of less do not de
 SAME_SIZE = 1.049  # largest over smallest side of squares of parts that is not seen: 10 % in area
 OVERLAPPING = (1e-6, 0.01, 0.2)  # part of an island that covers itself: less is rounding; it can be textured, not baked
 
+TURNED = {2: "half turns", 4: "quarter turns", 6: "sixth turns"}  # of tilings, by `Tiling.turns`
 EVENNESS = ("even", "fairly even", "uneven", "very uneven")
 SHEAR = (None, "slightly sheared", "sheared", "badly sheared")
 LONG = 10.0  # square of the longest side over twice the area of a long thin triangle; 1.2 where it is equilateral
@@ -64,7 +66,9 @@ class Verdict:
         return self.sentence + (f": {self.advice}" if self.advice else "")
 
 
-def verdict(quality: Quality, poles: int | None = None, added_distortion: float = 1.0) -> Verdict:
+def verdict(
+    quality: Quality, poles: int | None = None, added_distortion: float = 1.0, *, turns: int = 1, cones: int = 0
+) -> Verdict:
     """The `Verdict` on a map with this `Quality`.
 
     The worst counts: the size range, how far squares are sheared, which part of the surface is flipped or
@@ -72,6 +76,7 @@ def verdict(quality: Quality, poles: int | None = None, added_distortion: float 
     Of the shear that evening added, what is not seen does not count.
 
     poles, added_distortion : of a seamless tiling, how many it has, and `Tiling.added_distortion`; None for other maps
+    turns, cones : of a tiling that turns, `Tiling.turns` and how many cones it has
 
     Raises ValueError for an added distortion that is no number.
     Source: ours; the limits were chosen on pictures of 63 meshes, docs/python/verdicts.md.
@@ -95,11 +100,12 @@ def verdict(quality: Quality, poles: int | None = None, added_distortion: float 
     worst = max(ranks)
     against_shear = _against_shear(quality, ratio(added_distortion, "added_distortion"), worst)
     is_island = quality.overlapping_part is not None
-    advice = (_against_unevenness(poles, is_island), against_shear, _against_losses(quality), OVERLAP_ADVICE)
+    advice = (_against_unevenness(poles, is_island, turns), against_shear, _against_losses(quality), OVERLAP_ADVICE)
     wanted = [text for text, rank in zip(advice, ranks) if rank == worst > 0]
     more_exact = [text for text in wanted if not any(other.startswith(f"{text} ") for other in wanted)]
     decisive = [text for text in more_exact if ISLANDS in text]  # nothing else helps a mesh that is so coarse
-    return Verdict(LEVELS[worst], _sentence(quality, poles, ranks), "; ".join(decisive or more_exact))
+    sentence = _sentence(quality, _special(poles, turns, cones), ranks)
+    return Verdict(LEVELS[worst], sentence, "; ".join(decisive or more_exact))
 
 
 def overall(
@@ -155,18 +161,25 @@ def _rank(value, limits):
     return next((rank for rank, limit in enumerate(limits) if value <= limit), len(limits))
 
 
-def _sentence(quality, poles, ranks):
+def _special(poles, turns, cones):
+    """The poles of a tiling, or its turns and cones, in words; None for other maps."""
+    if poles is None:
+        return None
+    if turns != 1:
+        return f"{TURNED[turns]}, {counted(cones, 'cone')}"
+    return counted(poles, "pole") if poles else "no poles"
+
+
+def _sentence(quality, special, ranks):
     uneven, sheared, lost, overlapping = ranks
-    words = [EVENNESS[uneven], None if poles is None else "seamless", SHEAR[sheared]]
+    words = [EVENNESS[uneven], special and "seamless", SHEAR[sheared]]
     if uneven > 1:
         words[0] += f" (squares of 1 to {_factor(quality.size_range)})"
     if lost:
         words.append(f"{_percent(quality.lost_part)} flipped or collapsed")
     if overlapping:
         words.append(f"{_percent(quality.overlapping_part)} of the island overlaps itself")
-    if poles is not None:
-        words.append({0: "no poles", 1: "1 pole"}.get(poles, f"{poles} poles"))
-    sentence = ", ".join(word for word in words if word)
+    sentence = ", ".join(word for word in (*words, special) if word)
     return sentence[0].upper() + sentence[1:]
 
 
@@ -183,9 +196,11 @@ def _percent(part):
     return f"{100 * part:.2g} %"
 
 
-def _against_unevenness(poles, is_island):
+def _against_unevenness(poles, is_island, turns):
     if is_island:
         return "mark a seam up to where it is coarse, or set Most Stretch"
+    if turns != 1:
+        return "ask for more tiles"
     return "add poles where it is coarse" if poles else "make a seamless tiling, with poles where it is coarse"
 
 

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.value import Value
+from ..quality.verdicts import TURNED
 from .image_lattice import LIKE_HEXAGONS, checked, reduced
 
 ALIKE = 0.9  # least correlation with itself turned: what differs then is seen as grain, not as a seam
 SIDE = 256  # pixels, at most, of what is turned: finer differences are grain
-WORDS = {1: "no turn", 2: "half turns", 4: "quarter turns", 6: "sixth turns"}
 
 
 @dataclass(frozen=True, repr=False)
@@ -65,9 +65,9 @@ def image_turns(pixels: ArrayLike) -> ImageTurns:
     taken = next((one for one in found if one[1] >= ALIKE), None)
     if taken is None:
         best = max(found, key=lambda one: one[1])
-        text = f"Looks the same after no turn (the most like it are {WORDS[best[0]]}, {100 * max(best[1], 0.0):.0f} %)"
+        text = f"Looks the same after no turn (the most like it are {TURNED[best[0]]}, {100 * max(best[1], 0.0):.0f} %)"
         return ImageTurns(1, best[1], (0.0, 0.0), text)
-    return ImageTurns(*taken, f"Looks the same after {WORDS[taken[0]]} ({100 * taken[1]:.0f} %)")
+    return ImageTurns(*taken, f"Looks the same after {TURNED[taken[0]]} ({100 * taken[1]:.0f} %)")
 
 
 def _is_possible(aspect, turns):

@@ -107,7 +107,7 @@ class Tiling(Value):
     @property
     def verdict(self) -> Verdict:
         """The `Verdict` on the map."""
-        return verdict(self.quality, len(self.poles), self.added_distortion)
+        return verdict(self.quality, len(self.poles), self.added_distortion, turns=self.turns, cones=len(self.cones))
 
 
 @dataclass(frozen=True, repr=False)

@@ -1,0 +1,338 @@
+"""Maps whose cut sides also turn by the symmetry of the texture: the dial, what is written, told, drawn and refused."""
+
+import bpy
+import numpy as np
+import pytest
+from drawn_images import checker, hexagons
+from loaded_addon import module
+from scenes import (
+    everything,
+    mesh_object,
+    run,
+    select,
+    sphere_arrays,
+    stored,
+    stored_report,
+    torus,
+    uv,
+)
+
+material, patterns, marks = (
+    module(f"{name}") for name in ("materials.material", "materials.patterns", "overlays.marks_view")
+)
+own, image_io = module("materials.user_texture"), module("scene.image_io")
+WORDS = {2: "half turns", 4: "quarter turns", 6: "sixth turns"}
+NAMES = {2: "HALF", 4: "QUARTER", 6: "SIXTH"}
+
+
+def suzanne(levels=1):
+    """Blender's monkey, subdivided: closed up, for its eyes are parts of their own."""
+    bpy.ops.mesh.primitive_monkey_add()
+    obj = bpy.context.object
+    obj.modifiers.new("Smooth", "SUBSURF").levels = levels
+    bpy.ops.object.modifier_apply(modifier="Smooth")
+    return obj
+
+
+def ball():
+    return mesh_object("Ball", *sphere_arrays(3))
+
+
+def tile(**options):
+    return bpy.ops.uv.holomorphic_tile(**options)
+
+
+def tilings(obj):
+    return [part["tiling"] for part in stored_report(obj)["components"] if "tiling" in part]
+
+
+def turned_jumps(obj, turns):
+    """(n, 2) turns in whole k-th parts and the translations that are left over, of each inner edge of the written UV
+    layer: x' = R x + t at both of its ends."""
+    layer = uv(obj)
+    assert np.array_equal(layer, layer.astype(np.float32))
+    near, far = (each @ [1, 1j] for each in edge_sides(obj))
+    turn = np.exp(2j * np.pi / turns) ** np.arange(turns)
+    turn = np.array([1, 1j, -1, -1j])[:: 4 // turns] if turns in (2, 4) else turn
+    left = far[:, :, None] - turn * near[:, :, None]
+    off = np.abs(left[:, 0] - left[:, 1])
+    which = np.argmin(off, axis=1)
+    rows = np.arange(len(which))
+    return which, left[rows, 0, which], off[rows, which]
+
+
+def edge_sides(obj):
+    """Two (n, 2, 2): the UVs of the first and the second face at both ends of each inner edge."""
+    corners = np.empty(len(obj.data.loops), np.int32)
+    obj.data.loops.foreach_get("vertex_index", corners)
+    starts = np.empty(len(obj.data.polygons), np.int32)
+    obj.data.polygons.foreach_get("loop_start", starts)
+    following = np.arange(1, len(corners) + 1)
+    following[np.append(starts[1:], len(corners)) - 1] = starts
+    values, start = uv(obj), np.arange(len(corners))
+    is_down = corners > corners[following]
+    ends = np.where(is_down[:, None], np.stack([following, start], 1), np.stack([start, following], 1))
+    keys = corners[ends].astype(np.int64) @ [len(obj.data.vertices), 1]
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(keys[order][1:] == keys[order][:-1])
+    return values[ends[order[first]]], values[ends[order[first + 1]]]
+
+
+@pytest.mark.parametrize("turns", [2, 4])
+@pytest.mark.parametrize("make", [ball, torus, suzanne])
+def test_every_edge_of_the_written_map_is_a_turn_and_a_whole_translation(make, turns):
+    """Exactly, in single precision."""
+    obj = make()
+    assert tile(turns=NAMES[turns]) == {"FINISHED"}
+    found = [one for one in tilings(obj) if one["turns"] == turns]
+    assert found and sum(len(one["cones"]) for one in found) > 0
+    which, shift, off = turned_jumps(obj, turns)
+    assert off.max() == 0
+    assert np.array_equal(shift, np.round(shift))
+    assert len(np.unique(which)) > 1
+
+
+def test_sixth_turns_of_the_hexagonal_lattice():
+    obj = ball()
+    tile(turns="SIXTH")
+    which, shift, off = turned_jumps(obj, 6)
+    along = np.stack([shift.real - shift.imag / np.sqrt(3), 2 * shift.imag / np.sqrt(3)])
+    assert off.max() < 1e-5 and np.abs(along - np.round(along)).max() < 1e-5
+    assert len(np.unique(which)) == 6
+
+
+@pytest.mark.parametrize("turns", [2, 4, 6])
+def test_cones_are_told_in_place_of_poles(turns):
+    obj = ball()
+    tile(turns=NAMES[turns])
+    (found,) = tilings(obj)
+    count, angles = len(found["cones"]), np.array(found["cone_angles"])
+    assert turns * (1 - angles).sum() == pytest.approx(2 * turns)  # Gauss-Bonnet: k chi
+    assert found["poles"] == []
+    words = f"{WORDS[turns]}, {count} cones"
+    assert words in stored_report(obj)["verdict"]["sentence"]
+    text = obj["holomorph_report"]
+    assert any(words in line for line in stored.summary(text)) and words in stored.tiling_summary(text)
+    assert not any("poles:" in line for line in stored.summary(text))
+
+
+@pytest.mark.parametrize("operator", [run, tile])
+def test_a_first_click_is_only_shifted(operator):
+    """The checker could turn; what it shows at first does not."""
+    obj = torus()
+    operator(**({"main": "AUTOMATIC"} if operator is run else {}))
+    before = uv(obj)
+    operator(turns="NONE", **({"main": "AUTOMATIC"} if operator is run else {}))
+    assert np.array_equal(uv(obj), before)
+    assert [one["turns"] for one in tilings(obj)] == [1]
+
+
+@pytest.mark.parametrize("texture", patterns.TEXTURES)
+def test_the_turns_of_a_texture_are_taken(texture):
+    obj = torus()
+    tile(texture=texture)
+    assert [one["turns"] for one in tilings(obj)] == [patterns.TEXTURES[texture].turns]
+
+
+@pytest.mark.parametrize("texture", patterns.TEXTURES)
+def test_every_texture_looks_as_the_table_says(texture):
+    """About the corner of its square, where maps turn."""
+    drawn = patterns.TEXTURES[texture].draw(256)
+    picture = drawn.colour if drawn.height is None else np.dstack([drawn.colour, drawn.height])
+    turns = patterns.TEXTURES[texture].turns
+    assert module("native").holomorph.image_turns(picture).turns == turns
+    if turns != 1:
+        assert np.abs(picture - picture[::-1, ::-1]).max() < 1e-9
+    if turns == 4:
+        picture = picture - picture.mean(axis=(0, 1))
+        assert (np.rot90(picture) * picture).sum() > 0.9 * np.square(picture).sum()
+
+
+def test_the_checker_turns_about_the_middle_of_a_square():
+    """Its image on a turned map has that at the corner; the procedural one is shifted by half a square."""
+    obj = torus()
+    tile(turns="QUARTER")
+    nodes = obj.material_slots[0].material.node_tree.nodes
+    squares = nodes["Checker Scale"].outputs[0].default_value
+    assert tuple(nodes["Checker Shift"].inputs[1].default_value) == (0.5 / squares, 0.5 / squares, 0)
+    image = nodes["Checker Image"].image
+    grey = image_io.read_pixels(image)[..., 0]
+    assert np.array_equal(np.rot90(grey), grey) and grey.min() < grey.max()
+    tile(turns="NONE")
+    nodes = obj.material_slots[0].material.node_tree.nodes
+    assert tuple(nodes["Checker Shift"].inputs[1].default_value) == (0, 0, 0)
+
+
+def image(grey, name="Wall"):
+    made = bpy.data.images.new(name, grey.shape[1], grey.shape[0])
+    image_io.write_pixels(made, np.dstack([grey, grey, grey, np.ones_like(grey)]))
+    made.pack()
+    return made
+
+
+@pytest.mark.parametrize(
+    ("grey", "turns"),
+    [(np.roll(checker(64, 4), 5, 1), 4), (checker(64, 4) * np.linspace(0, 1, 64), 1), (hexagons(222, 128, 2, 1), 6)],
+)
+def test_an_image_says_how_it_turns(grey, turns):
+    obj = torus()
+    image(grey)
+    tile(texture="IMAGE", source="Wall")
+    assert [one["turns"] for one in tilings(obj)] == [turns]
+    chosen = stored_report(obj)["dials"]["own"]
+    assert chosen["turns"] == turns and ("Looks the same after" in chosen["text"] or turns == 1)
+    nodes = obj.material_slots[0].material.node_tree.nodes
+    if turns == 4:
+        centre = np.array(nodes["Image Centre"].inputs[1].default_value)[:2]
+        assert np.allclose(centre, chosen["centre"]) and np.allclose((centre - [5 / 64, 0]) * 8 % 2, 1)
+    tile(texture="IMAGE", source="Wall", turns="NONE")
+    assert "Image Centre" not in obj.material_slots[0].material.node_tree.nodes
+
+
+def test_a_texture_without_the_symmetry_is_told():
+    obj = torus()
+    said = everything_said(lambda: tile(texture="SCALES", turns="QUARTER"))
+    assert "Scales looks different after a quarter turn: seams show where the map turns" in said
+    assert [one["turns"] for one in tilings(obj)] == [4]
+
+
+def everything_said(press):
+    """What is told by the outcome of a run."""
+    told, kind = [], module("operators.request").Run
+    write = kind.write
+
+    def noted(self, *arguments):
+        outcome = write(self, *arguments)
+        told.extend(outcome.notes + outcome.problems)
+        return outcome
+
+    kind.write = noted
+    try:
+        assert press() == {"FINISHED"}
+    finally:
+        kind.write = write
+    return told
+
+
+CHOICES = {
+    "Poles": {"poles": "COUNT", "pole_count": 2},
+    "Lattice": {"lattice": "brick"},
+    "Rotation": {"turn": 0.5},
+    "Boundary": {"boundary": "straight"},
+}
+
+
+@pytest.mark.parametrize("dial", CHOICES)
+def test_what_turned_maps_do_not_have_is_refused_or_kept(dial):
+    """Refused where turns are asked for; where they only follow from the texture, the choice counts."""
+    obj = torus()
+    before = everything(obj)
+    told = f"a map with half turns has no choice of {dial}: leave it automatic, or set Turns to None"
+    with pytest.raises(RuntimeError, match=told):
+        tile(turns="HALF", **CHOICES[dial])
+    assert everything(obj) == before
+    tile(texture="BRICKS", **CHOICES[dial])
+    assert [one["turns"] for one in tilings(obj)] == [1]
+
+
+@pytest.mark.parametrize("kind", ["cube", "plane", "icosahedron"])
+@pytest.mark.parametrize("turns", ["HALF", "QUARTER", "SIXTH"])
+def test_meshes_that_are_hard_to_turn(kind, turns):
+    """They get some map, by either button, or are refused in a sentence."""
+    {"cube": bpy.ops.mesh.primitive_cube_add, "plane": bpy.ops.mesh.primitive_plane_add}.get(
+        kind, lambda: bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=1)
+    )()
+    obj = bpy.context.object
+    assert run(main="AUTOMATIC", turns=turns) == {"FINISHED"}
+    assert np.isfinite(uv(obj)).all()
+    try:
+        assert tile(turns=turns) == {"FINISHED"}
+        assert np.isfinite(uv(obj)).all()
+    except RuntimeError as error:
+        assert "fault" not in str(error)
+
+
+def test_several_objects_have_one_size():
+    one, other = ball(), torus()
+    select(one, other)
+    assert tile(turns="QUARTER") == {"FINISHED"}
+    for obj in (one, other):
+        _, shift, off = turned_jumps(obj, 4)
+        assert off.max() == 0 and np.array_equal(shift, np.round(shift))
+    assert one.material_slots[0].material == other.material_slots[0].material
+
+
+def test_the_button_and_what_it_does_not_apply_to():
+    """Islands and balanced maps are the same with any turns."""
+    obj = torus()
+    obj.data.edges[0].use_seam = True
+    for main in ("BALANCED",):
+        run(main=main, turns="NONE")
+        before = uv(obj)
+        run(main=main, turns="QUARTER")
+        assert np.array_equal(uv(obj), before)
+
+
+def test_quarters_after_the_map_is_made():
+    obj = ball()
+    tile(turns="QUARTER", quarters=1)
+    _, shift, off = turned_jumps(obj, 4)
+    assert off.max() == 0 and np.array_equal(shift, np.round(shift))
+
+
+def test_cones_are_dots_of_their_own():
+    obj = ball()
+    tile(turns="QUARTER")
+    points, kinds, hovered = marks._points(obj, None)
+    assert len(points) == len(tilings(obj)[0]["cones"]) and (kinds == marks.CONE).all() and not hovered.any()
+    assert [(count, name) for count, name, _ in marks.legend(kinds)] == [(len(points), "cone")]
+    assert np.allclose(points, np.array([obj.data.vertices[v].co for v in tilings(obj)[0]["cones"]]))
+
+
+def test_cones_are_not_dragged():
+    ball()
+    tile(turns="HALF")
+    with pytest.raises(RuntimeError, match="cones of a map that turns stay where they are"):
+        bpy.ops.uv.holomorphic_drag_poles(moves="0:3")
+
+
+@pytest.mark.parametrize("options", [{"poles": "KEPT"}, {"poles": "COARSE"}])
+def test_poles_of_a_turned_map(options):
+    """There are none to keep; and none to add to."""
+    obj = ball()
+    tile(turns="QUARTER")
+    if options["poles"] == "KEPT":
+        with pytest.raises(RuntimeError, match="no poles from an earlier tiling"):
+            tile(**options)
+    else:
+        assert tile(**options) == {"FINISHED"} and [one["turns"] for one in tilings(obj)] == [1]
+
+
+THINGS = [
+    (bpy.ops.object.holomorphic_relief, {}),
+]
+
+
+@pytest.mark.parametrize(("operator", "options"), THINGS)
+def test_what_needs_tiles_that_are_only_shifted_says_so(operator, options):
+    obj = ball()
+    tile(turns="QUARTER")
+    image(checker(16, 2))
+    before = everything(obj)
+    with pytest.raises(RuntimeError, match="its map turns"):
+        operator(**options)
+    assert everything(obj) == before
+    assert obj.name in bpy.data.objects
+
+
+def test_again_and_undone():
+    """Another run takes the place of the first, and Remove takes all away."""
+    obj = ball()
+    tile(turns="QUARTER", tiles=100)
+    first = uv(obj)
+    tile(turns="NONE")
+    assert len(stored.cones(obj["holomorph_report"])) == 0
+    tile(turns="QUARTER", tiles=100)
+    assert np.array_equal(uv(obj), first)
+    bpy.ops.uv.holomorphic_remove_maps()
+    assert "holomorph_report" not in obj and not len(obj.data.uv_layers)
