@@ -73,7 +73,7 @@ def bricks(size):
     brick = smoothstep(joint, joint + 0.06, edge)
     grain = noise(size, 13, 20, 20, 1.6, parity=1)
     pits = smoothstep(1.7, 2.6, noise(size, 14, 90, 90, 2, parity=1))
-    tint, tone = paired(15, along, across)[row, column], paired(16, along, across)[row, column]
+    tint, tone = paired(15, along, across)[row, column], paired(235, along, across)[row, column]
     clay = mix(mix((0.32, 0.085, 0.045), (0.48, 0.16, 0.075), tint), (0.15, 0.05, 0.04), smoothstep(0.78, 1.0, tone))
     clay = shade(clay, (1 + 0.10 * grain + 0.05 * noise(size, 17, 4, 4, parity=1)) * (1 - 0.5 * pits))
     mortar = shade(np.full((size, size, 3), (0.50, 0.46, 0.39)), 0.9 + 0.06 * grain - 0.25 * smoothstep(0, joint, edge))
