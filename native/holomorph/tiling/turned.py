@@ -67,12 +67,12 @@ class TurnedTiler:
         evenness = checked_evenness(evenness)
         usual = max(LEAST_TILES, TILES_PER_HANDLE * self._component.genus)
         tiles = usual if tiles is None else real_number(tiles, "tiles", positive=True)
-        uv, jumps = _native.turned_map(
+        uv, jumps, cones, missing = _native.turned_map(
             self._placed, tiles=tiles, evenness=evenness, threads=self._threads, progress=progress
         )
         lattice = np.array([[z.real, z.imag] for z in LATTICES[LATTICE[self._turns]]]).T.astype(float)
         uv = arrays.frozen(np.ascontiguousarray(uv @ lattice.T) if self._turns == 6 else uv)
-        edges, missing = self._component._native.edges, self._placed.missing()
+        edges = self._component._native.edges
         return Tiling(
             uv=uv,
             periods=arrays.frozen(np.empty((0, 2), np.int64)),
@@ -89,7 +89,7 @@ class TurnedTiler:
             seams=self._of_surface(edges[jumps[:, 0]]),
             lattice=arrays.frozen(lattice),
             turns=self._turns,
-            cones=self._of_surface(self._placed.cones()),
+            cones=self._of_surface(cones),
             cone_angles=arrays.frozen(1 - missing / self._turns),
             jumps=arrays.frozen(jumps[:, 1:]),
         )

@@ -64,12 +64,15 @@ turns::PlacedCones place_cones(const std::shared_ptr<mesh::Surface>& surface, in
                                const py::object& progress) {
   turns::ConeOptions options{turns, price, {}};
   if (direction) options.along = {*direction, is_of_u};
-  return unlocked(threads, progress,
-                  [&](Execution& execution) { return turns::PlacedCones(surface, options, execution); });
+  return unlocked(threads, progress, [&](Execution& execution) {
+    turns::PlacedCones placed(surface, options, execution);
+    execution.finish();
+    return placed;
+  });
 }
 
-std::pair<py::array, py::array> turned_map(const turns::PlacedCones& placed, double tiles, double evenness, int threads,
-                                           const py::object& progress) {
+py::tuple turned_map(const turns::PlacedCones& placed, double tiles, double evenness, int threads,
+                     const py::object& progress) {
   const turns::TurnedMap made =
       unlocked(threads, progress, [&](Execution& execution) { return placed.turned_map(tiles, evenness, execution); });
   Eigen::Matrix<std::int64_t, Eigen::Dynamic, 4, Eigen::RowMajor> jumps(std::ssize(made.jumps), 4);
@@ -77,14 +80,12 @@ std::pair<py::array, py::array> turned_map(const turns::PlacedCones& placed, dou
     const turns::Jump& jump = made.jumps[i];
     jumps.row(i) << jump.edge, jump.turn, jump.translation[0], jump.translation[1];
   }
-  return {copy(made.uv), copy(jumps)};
+  return py::make_tuple(copy(made.uv), copy(jumps), copy(made.cones), copy(made.missing));
 }
 
 void bind_turned_map(py::module_& m) {
   using turns::PlacedCones;
-  py::class_<PlacedCones>(m, "PlacedCones")
-      .def("cones", [](const PlacedCones& placed) { return copy(placed.cones()); })
-      .def("missing", [](const PlacedCones& placed) { return copy(placed.missing()); });
+  py::class_<PlacedCones>(m, "PlacedCones");
   m.def("place_cones", &place_cones, "surface"_a, py::kw_only(), "turns"_a, "price"_a, "direction"_a, "is_of_u"_a,
         "threads"_a, "progress"_a);
   m.def("turned_map", &turned_map, "placed"_a, py::kw_only(), "tiles"_a, "evenness"_a, "threads"_a, "progress"_a);

@@ -287,4 +287,12 @@ uv::UvArray evened(const mesh::Surface& surface, const uv::UvArray& uv, const Ke
   return result;
 }
 
+double strain(const mesh::Surface& surface, const uv::UvArray& uv, const Kept& kept, double evenness,
+              Execution& execution) {
+  const StrainEnergy energy(surface, uv, kept.poles, kept.turns, execution.workers());
+  Function gradient, at_corners;
+  return energy(Function(surface.vertex_count, 0.0), lambda_of(evenness), gradient, at_corners, execution.workers())
+      .energy;
+}
+
 }  // namespace holomorph::evening

@@ -36,4 +36,9 @@ inline constexpr double kUsualPower = 0.6;
 uv::UvArray evened(const mesh::Surface& surface, const uv::UvArray& uv, const Kept& kept, double evenness,
                    Execution& execution, const std::string& solver = "auto");
 
+/// Returns the StrainEnergy of the map itself, with the weight of size that this evenness gives. @param uv, kept as
+/// above
+double strain(const mesh::Surface& surface, const uv::UvArray& uv, const Kept& kept, double evenness,
+              Execution& execution);
+
 }  // namespace holomorph::evening

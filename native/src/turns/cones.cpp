@@ -18,21 +18,21 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kCandidates = 250, kExtrema = 80;  // that cones may be at, and of these the most where u is extreme
 constexpr int kMostMoves = 400;
-constexpr double kDouble = 3;              // price of a cone of two k-th turns over that of one
-constexpr double kHandles = 0.3;           // weight of the square of what handles turn beyond whole k-th turns
-constexpr double kNear = 0.06;             // roots of the area: opposite cones of a field that are nearer vanish
-constexpr int kAround = 12, kOthers = 60;  // candidates around a cone in a round, and elsewhere
-constexpr int kMostAround = 240;           // around all
-constexpr double kGain = 1e-9;             // a move lowers the cost by more
+constexpr double kHandles = 0.3;  // weight of the square of what handles turn beyond whole k-th turns
+constexpr double kNear = 0.06;    // roots of the area: opposite cones of a field that are nearer vanish
+constexpr double kTiles = 400, kTilesPerHandle = 64;  // with which cones are apart
+constexpr int kAround = 12, kOthers = 60;             // candidates around a cone in a round, and elsewhere
+constexpr int kMostAround = 480;                      // around all
+constexpr double kGain = 1e-9;                        // a move lowers the cost by more
 // Rounds: the distance of candidates from their cone, in spacings of the first ones; part of kHandles.
 struct Round {
   double reach, handles;
 };
 constexpr Round kFromCurvature[] = {{1.2, 0.1}, {0.6, 0.15}, {0.3, 0.25}, {0.6, 0.5}, {0.3, 1}};
 constexpr Round kFromField[] = {{0.5, 0.3}, {0.3, 1}, {0.3, 1}};
-constexpr Round kFromLevel[] = {{0.5, 0.5}, {0.3, 1}};
+constexpr Round kFromLevel[] = {{0.6, 0.5}, {0.3, 1}, {0.15, 1}};
 constexpr double kLevels[] = {0.1, 0.3, 1};  // weights with which fields are pulled level
-constexpr unsigned kSeeds[] = {1, 2};        // of the starts from curvature
+constexpr unsigned kSeeds[] = {1, 2, 3, 4};  // of the starts from curvature
 
 double squared_distance(const Point& a, const Point& b) {
   double sum = 0;
@@ -43,13 +43,18 @@ double squared_distance(const Point& a, const Point& b) {
 // The price of a cone, over that of one k-th turn.
 double price_of(int n) {
   const int size = std::abs(n);
-  return size == 0 ? 0 : size == 1 ? 1 : kDouble;
+  return size * (size + 1) / 2;
 }
 
 class Search {
  public:
   Search(const mesh::Surface& surface, const Net& net, const ConeOptions& options)
-      : points_(surface.polygons.vertices), net_(net), options_(options), laplace_(net), loops_(dual_loops(net)) {
+      : points_(surface.polygons.vertices),
+        net_(net),
+        options_(options),
+        unit_(2 * kPi / options.k),
+        laplace_(net),
+        loops_(dual_loops(net)) {
     weights_ = VectorXd(net.vertex_count());
     for (int v = 0; v < net.vertex_count(); ++v) weights_[v] = net.vertex_area[v] / net.whole_area;
     VectorXd defect = VectorXd::Zero(net.vertex_count());
@@ -61,8 +66,15 @@ class Search {
     }
     total_ = static_cast<int>(std::lround(options.k * sum / (2 * kPi)));
     u0_ = laplace_.solve(-defect);
+    response0_ = laplace_.solve(weights_.asDiagonal() * u0_).col(0);
+    response_.resize(net.vertex_count());
+    flux_of_.resize(net.vertex_count());
+    turning_ = fluxes(u0_).col(0);
+    for (std::size_t l = 0; l < loops_.size(); ++l) {
+      for (const int side : loops_[l]) turning_[static_cast<Eigen::Index>(l)] += net_.transport[side];
+    }
     most_ = options.k == 1 ? 0 : options.k == 2 ? 1 : 2;
-    least_ = options.k == 1 ? -1 : -2;
+    least_ = -options.k;
     spacing_ = std::sqrt(net.whole_area / kCandidates);
     find_spread();
   }
@@ -155,51 +167,93 @@ class Search {
     }
   }
 
-  // Takes candidates, with Green's functions and the quadratic form; @param missing #V cones, none: placed by greed
+  // Takes candidates, with Green's functions and the quadratic form. What is too much at one of them, or too near to
+  // another cone, is placed anew. @param missing #V cones, none: placed by greed
   void begin(std::vector<int> candidates, const std::vector<int>* missing) {
     set(std::move(candidates));
     n_.assign(places_.size(), 0);
     int left = total_;
     for (std::size_t i = 0; missing && i < places_.size(); ++i) {
-      n_[i] = (*missing)[places_[i]];
-      left -= n_[i];
+      const int n = (*missing)[places_[i]];
+      if (n == 0) continue;
+      const auto near = std::ranges::find_if(near_[i], [&](std::size_t j) { return n_[j] != 0; });
+      int& united = near == near_[i].end() ? n_[i] : n_[*near];
+      united = is_hole(places_[i]) ? n : std::clamp(united + n, least_, most_);
     }
-    VectorXd u = u0_.col(0);
-    for (std::size_t i = 0; i < n_.size(); ++i) u += n_[i] * G_.col(static_cast<Eigen::Index>(i));
+    for (const int n : n_) left -= n;
+    VectorXd n(n_.size());
     for (; left != 0; left -= left > 0 ? 1 : -1) {
       const int sign = left > 0 ? 1 : -1;
+      for (std::size_t i = 0; i < n_.size(); ++i) n[static_cast<Eigen::Index>(i)] = n_[i];
+      const VectorXd change = 2 * sign * (Q_ * n - b_) + Q_.diagonal();
       int best = -1;
-      double least = kInfinite;
       for (std::size_t i = 0; i < n_.size(); ++i) {
-        if (!may_be(i, n_[i] + sign)) continue;
-        const double cost = (u + sign * G_.col(static_cast<Eigen::Index>(i))).cwiseAbs2().dot(weights_);
-        if (cost < least) least = cost, best = static_cast<int>(i);
+        if (!may_be(i, sign) || (crowd(i) > 0 && n_[i] == 0)) continue;
+        if (best < 0 || change[static_cast<Eigen::Index>(i)] < change[best]) best = static_cast<int>(i);
       }
       if (best < 0) throw SolverError("no cones fit this surface: it has too few vertices");
       n_[best] += sign;
-      u += sign * G_.col(best);
     }
   }
 
-  bool may_be(std::size_t i, int n) const { return is_hole(places_[i]) || (n <= most_ && n >= least_); }
+  bool may_be(std::size_t i, int change) const {
+    return is_hole(places_[i]) || (change > 0 ? n_[i] + change <= most_ : n_[i] + change >= least_);
+  }
+
+  // The number of cones near a candidate.
+  int crowd(std::size_t i) const {
+    return static_cast<int>(std::ranges::count_if(near_[i], [&](std::size_t j) { return n_[j] != 0; }));
+  }
+
+  bool are_near(std::size_t i, std::size_t j) const { return std::ranges::binary_search(near_[i], j); }
+
+  void find_near() {
+    near_.assign(places_.size(), {});
+    // Centres of k-th turns in a lattice whose tiles have the area 1.
+    const double between = options_.k == 2 ? 0.5 : options_.k == 4 ? std::sqrt(0.5) : 1.075;
+    const double apart =
+        std::pow(options_.apart * between, 2) * net_.whole_area / std::max(kTiles, kTilesPerHandle * net_.genus);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      for (std::size_t j = 0; j < places_.size(); ++j) {
+        if (i != j && !is_hole(places_[i]) && !is_hole(places_[j]) &&
+            squared_distance(points_[places_[i]], points_[places_[j]]) < apart)
+          near_[i].push_back(j);
+      }
+    }
+  }
 
   void set(std::vector<int> candidates) {
     std::sort(candidates.begin(), candidates.end());
     candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
     places_ = std::move(candidates);
+    find_near();
     const auto count = static_cast<Eigen::Index>(places_.size());
-    MatrixXd B = MatrixXd::Zero(net_.vertex_count(), count);
-    for (Eigen::Index i = 0; i < count; ++i) B(places_[i], i) = 2 * kPi / options_.k;
-    G_ = laplace_.solve(B);
-    const MatrixXd weighted = weights_.cwiseSqrt().asDiagonal() * G_;
-    Q_ = MatrixXd::Zero(count, count);
-    Q_.selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
-    Q_ = Q_.selfadjointView<Eigen::Lower>();
-    b_ = -(G_.transpose() * (weights_.cwiseProduct(u0_.col(0))));
-    flux_ = fluxes(G_);
-    turning_ = fluxes(u0_).col(0);
-    for (std::size_t l = 0; l < loops_.size(); ++l) {
-      for (const int side : loops_[l]) turning_[static_cast<Eigen::Index>(l)] += net_.transport[side];
+    respond();
+    Q_.resize(count, count);
+    b_.resize(count);
+    flux_.resize(std::ssize(loops_), count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const VectorXd& column = response_[places_[j]];
+      for (Eigen::Index i = 0; i < count; ++i) Q_(i, j) = column[places_[i]];
+      b_[j] = -unit_ * response0_[places_[j]];
+      flux_.col(j) = flux_of_[places_[j]];
+    }
+    Q_ = (0.5 * (Q_ + Q_.transpose())).eval();
+  }
+
+  // Finds the responses to the candidates that are new.
+  void respond() {
+    std::vector<int> fresh;
+    for (const int place : places_) {
+      if (response_[place].size() == 0) fresh.push_back(place);
+    }
+    if (fresh.empty()) return;
+    MatrixXd B = MatrixXd::Zero(net_.vertex_count(), std::ssize(fresh));
+    for (std::size_t i = 0; i < fresh.size(); ++i) B(fresh[i], static_cast<Eigen::Index>(i)) = unit_;
+    const MatrixXd G = laplace_.solve(B), response = laplace_.solve(weights_.asDiagonal() * G), flux = fluxes(G);
+    for (std::size_t i = 0; i < fresh.size(); ++i) {
+      response_[fresh[i]] = unit_ * response.col(static_cast<Eigen::Index>(i));
+      flux_of_[fresh[i]] = flux.col(static_cast<Eigen::Index>(i));
     }
   }
 
@@ -215,25 +269,32 @@ class Search {
 
   // Unit moves n_i + 1, n_j - 1, and jumps of a whole cone, the best of all while it lowers the cost.
   void search(double price_part, double handles_part) {
-    const double kappa = kHandles * handles_part, unit = 2 * kPi / options_.k;
+    const double kappa = kHandles * handles_part;
     const double price = options_.price * price_part;
     const auto count = static_cast<Eigen::Index>(places_.size());
     const MatrixXd Q = Q_ + kappa * flux_.transpose() * flux_;
     const VectorXd diagonal = Q.diagonal();
     VectorXd n(count), r(count), up(count), down(count);
+    std::vector<int> crowds(places_.size());
     for (int move = 0; move < kMostMoves; ++move) {
-      for (Eigen::Index i = 0; i < count; ++i) n[i] = n_[i];
+      for (Eigen::Index i = 0; i < count; ++i) {
+        n[i] = n_[i];
+        crowds[i] = crowd(i);
+      }
       VectorXd b = b_;
       if (!loops_.empty()) {
         const VectorXd turned = turning_ + flux_ * n;
-        b -= kappa * flux_.transpose() * (turning_ - unit * (turned / unit).array().round().matrix());
+        b -= kappa * flux_.transpose() * (turning_ - unit_ * (turned / unit_).array().round().matrix());
       }
       r = Q * n - b;
       for (Eigen::Index i = 0; i < count; ++i) {
         const double p = is_hole(places_[i]) ? 0 : price;
-        up[i] = may_be(i, n_[i] + 1) ? 2 * r[i] + diagonal[i] + p * (price_of(n_[i] + 1) - price_of(n_[i])) : kInfinite;
-        down[i] =
-            may_be(i, n_[i] - 1) ? -2 * r[i] + diagonal[i] + p * (price_of(n_[i] - 1) - price_of(n_[i])) : kInfinite;
+        const auto change = [&](int by) {
+          if (!may_be(i, by) || (n_[i] == 0 && crowds[i] > 0)) return kInfinite;
+          return 2 * by * r[i] + diagonal[i] + p * (price_of(n_[i] + by) - price_of(n_[i]));
+        };
+        up[i] = change(1);
+        down[i] = change(-1);
       }
       double best = -kGain;
       Eigen::Index from = -1, to = -1;
@@ -242,14 +303,15 @@ class Search {
         if (std::isinf(down[j])) continue;
         for (Eigen::Index i = 0; i < count; ++i) {
           const double change = up[i] + down[j] - 2 * Q(i, j);
-          if (i != j && change < best) best = change, to = i, from = j, carried = 1;
+          if (i == j || !(change < best) || (n_[i] == 0 && n_[j] == 0 && are_near(i, j))) continue;
+          best = change, to = i, from = j, carried = 1;
         }
       }
       for (Eigen::Index j = 0; j < count; ++j) {
         const int w = n_[j];
         if (w == 0 || is_hole(places_[j])) continue;
         for (Eigen::Index i = 0; i < count; ++i) {
-          if (n_[i] != 0 || is_hole(places_[i])) continue;
+          if (n_[i] != 0 || is_hole(places_[i]) || crowds[i] > (are_near(i, j) ? 1 : 0)) continue;
           const double change = 2 * w * (r[i] - r[j]) + w * w * (diagonal[i] + diagonal[j] - 2 * Q(i, j));
           if (change < best) best = change, to = i, from = j, carried = w;
         }
@@ -285,13 +347,13 @@ class Search {
     }
     Cones result;
     result.missing.assign(net_.vertex_count(), 0);
-    VectorXd u = u0_.col(0);
+    VectorXd n(n_.size());
     for (std::size_t i = 0; i < places_.size(); ++i) {
       result.missing[places_[i]] = n_[i];
-      u += n_[i] * G_.col(static_cast<Eigen::Index>(i));
+      n[static_cast<Eigen::Index>(i)] = n_[i];
       if (!is_hole(places_[i])) result.cost += options_.price * price_of(n_[i]);
     }
-    result.cost += u.cwiseAbs2().dot(weights_);
+    result.cost += u0_.col(0).cwiseAbs2().dot(weights_) + n.dot(Q_ * n - 2 * b_);
     return result;
   }
 
@@ -306,11 +368,17 @@ class Search {
   const std::vector<Point>& points_;
   const Net& net_;
   const ConeOptions options_;
+  const double unit_;  // a k-th turn
   Laplace laplace_;
   const std::vector<std::vector<int>> loops_;
   VectorXd weights_, b_, turning_;
-  MatrixXd u0_, G_, Q_, flux_;
+  MatrixXd u0_, Q_, flux_;
+  // With G the Green's function of a vertex times a k-th turn and W the areas: L^-1 W G, so that the quadratic form
+  // of u is read off at the other candidates, and what G carries across the loops. Empty until it is needed.
+  std::vector<VectorXd> response_, flux_of_;  // #V
+  VectorXd response0_;                        // of u without cones
   std::vector<int> spread_, places_, n_;
+  std::vector<std::vector<std::size_t>> near_;  // to each candidate, ascending
   int total_ = 0, most_ = 0, least_ = 0;
   double spacing_ = 0;
   std::mt19937 random_;
@@ -318,7 +386,7 @@ class Search {
 
 }  // namespace
 
-Cones find_cones(const mesh::Surface& surface, const ConeOptions& options, Execution& execution) {
+std::vector<Cones> find_cones(const mesh::Surface& surface, const ConeOptions& options, Execution& execution) {
   const Net net(surface);
   Search search(surface, net, options);
   std::vector<Cones> found;
@@ -335,7 +403,8 @@ Cones find_cones(const mesh::Surface& surface, const ConeOptions& options, Execu
     found.push_back(search.from_curvature(seed));
     report();
   }
-  return *std::min_element(found.begin(), found.end(), [](const Cones& a, const Cones& b) { return a.cost < b.cost; });
+  std::stable_sort(found.begin(), found.end(), [](const Cones& a, const Cones& b) { return a.cost < b.cost; });
+  return found;
 }
 
 Cones refined_cones(const mesh::Surface& surface, const std::vector<int>& missing, const ConeOptions& options,

@@ -21,6 +21,8 @@ struct ConeOptions {
   int k = 4;                   ///< the map may turn by k-th parts of a full turn
   double price = 0.0005;       ///< of a cone of one k-th turn
   std::optional<Along> along;  ///< none: any direction
+  /// Cones are this far apart, over the distance between the centres of turns of 400 tiles, or of 64 a handle.
+  double apart = 0.7;
 };
 
 /// Finds cones with which the log scale u of the flat metric, L u = (2 pi / k) missing - defect, is near 0, and with
@@ -28,10 +30,11 @@ struct ConeOptions {
 /// candidates by Green's functions; cones appear, vanish and jump in pairs while that lowers the cost, then among
 /// candidates ever nearer to them. Begins with the cones of the smoothest field of k directions that is pulled level
 /// (Knoeppel and others 2013, doi:10.1145/2461912.2462005), by several weights of that, and with cones placed by
-/// curvature alone. The least cost wins.
+/// curvature alone.
+/// @return those of each start, the least cost first
 /// @throws SolverError, Cancelled
 /// @param surface some thousand triangles: Green's functions are kept of hundreds of candidates
-Cones find_cones(const mesh::Surface& surface, const ConeOptions& options, Execution& execution);
+std::vector<Cones> find_cones(const mesh::Surface& surface, const ConeOptions& options, Execution& execution);
 
 /// Goes on from cones that were found on a coarser level of the surface, #V.
 Cones refined_cones(const mesh::Surface& surface, const std::vector<int>& missing, const ConeOptions& options,

@@ -6,7 +6,6 @@
 
 #include "base/errors.h"
 #include "linear/dense.h"
-#include "solver/direct/sparse_cholesky.h"
 
 namespace holomorph::turns {
 namespace {
@@ -20,6 +19,7 @@ using SparseComplex = Eigen::SparseMatrix<Complex, Eigen::RowMajor>;
 constexpr double kLeastScale = 0.05;  // of e^u, below which triangles weigh no more
 constexpr double kRegular = 1e-10;    // of the mean diagonal: vertices of triangles without area alone
 constexpr int kSizes = 9, kAngles = 25;
+constexpr Eigen::Index kColumns = 32;                   // solved for at once
 constexpr double kSpread = 0.12;                        // of ln size, to either side
 constexpr double kTurned = 6 * std::numbers::pi / 180;  // radians from level, to either side
 
@@ -56,11 +56,11 @@ Complex turned_by(const TurnLattice& lattice, int r) {
   return lattice.at(turn(0, 0), turn(1, 0));
 }
 
-NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& space) : space_(space) {
-  std::vector<int> unknown(net.vertex_count(), -1);
+NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& space)
+    : unknown_(net.vertex_count(), -1) {
   int count = 0;
   for (int v = 0; v < net.vertex_count(); ++v) {
-    if (net.first[v] >= 0 && !space.is_fixed[v]) unknown[v] = count++;
+    if (net.first[v] >= 0 && !space.is_fixed[v]) unknown_[v] = count++;
   }
   const auto integers = space.offset.cols();
   const SparseComplex dq = differences(net, space);
@@ -75,11 +75,17 @@ NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& 
       }
     }
   };
-  MatrixXcd rhs = MatrixXcd::Zero(count, 1 + integers);  // P^H T and P^H Q
+  // Real and imaginary parts, in turn, of P^H T and P^H Q: zero away from the cut.
+  std::vector<Eigen::Triplet<double>> on_right;
+  const auto add_right = [&](int row, Eigen::Index column, Complex value) {
+    if (row < 0) return;
+    on_right.emplace_back(2 * row, static_cast<int>(column), value.real());
+    on_right.emplace_back(2 * row + 1, static_cast<int>(column), value.imag());
+  };
   MatrixXcd QQ = MatrixXcd::Zero(integers, integers);
   VectorXcd QT = VectorXcd::Zero(integers);
   for (int side = 0; side < net.side_count(); ++side) {
-    const int t = side / 3, from = net.tail[side], to = net.head[side], a = unknown[from], b = unknown[to];
+    const int t = side / 3, from = net.tail[side], to = net.head[side], a = unknown_[from], b = unknown_[to];
     if (!(net.area[t] > 0)) continue;
     double u = 0;
     for (int i = 0; i < 3; ++i) u += frames.scale[net.tail[3 * t + i]] / 3;
@@ -88,8 +94,10 @@ NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& 
     const Complex wanted = scale * std::polar(1.0, -frames.angle[t]) * net.along[side];
     const Complex at_a = turned_by(space.lattice, space.corner_turn[side]);
     const Complex at_b = turned_by(space.lattice, space.corner_turn[Net::next(side)]);
-    if (a >= 0) add(a, a, c), trace += c, rhs(a, 0) -= c * std::conj(at_a) * wanted;
-    if (b >= 0) add(b, b, c), trace += c, rhs(b, 0) += c * std::conj(at_b) * wanted;
+    if (a >= 0) add(a, a, c), trace += c;
+    if (b >= 0) add(b, b, c), trace += c;
+    add_right(a, 0, -c * std::conj(at_a) * wanted);
+    add_right(b, 0, c * std::conj(at_b) * wanted);
     if (a >= 0 && b >= 0 && a != b) {
       if (a > b)
         add(a, b, -c * std::conj(at_a) * at_b);
@@ -97,8 +105,8 @@ NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& 
         add(b, a, -c * std::conj(at_b) * at_a);
     }
     for (SparseComplex::InnerIterator it(dq, side); it; ++it) {
-      if (a >= 0) rhs(a, 1 + it.col()) -= c * std::conj(at_a) * it.value();
-      if (b >= 0) rhs(b, 1 + it.col()) += c * std::conj(at_b) * it.value();
+      add_right(a, 1 + it.col(), -c * std::conj(at_a) * it.value());
+      add_right(b, 1 + it.col(), c * std::conj(at_b) * it.value());
       QT[it.col()] += c * std::conj(it.value()) * wanted;
       for (SparseComplex::InnerIterator other(dq, side); other; ++other)
         QQ(it.col(), other.col()) += c * std::conj(it.value()) * other.value();
@@ -107,26 +115,21 @@ NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& 
   for (int i = 0; i < 2 * count; ++i) entries.emplace_back(i, i, kRegular * trace / std::max(count, 1));
   Eigen::SparseMatrix<double> lower(2 * count, 2 * count);
   lower.setFromTriplets(entries.begin(), entries.end());
-  solver::SparseCholesky factor;
-  factor.compute(lower, {});
-  MatrixXd b(2 * count, rhs.cols());
-  for (int i = 0; i < count; ++i) {
-    b.row(2 * i) = rhs.row(i).real();
-    b.row(2 * i + 1) = rhs.row(i).imag();
+  solving_->factor.compute(lower, {});
+  rhs_.resize(2 * count, 1 + integers);
+  rhs_.setFromTriplets(on_right.begin(), on_right.end());
+  const MatrixXd y = solving_->factor.solve(rhs_.col(0));
+  // The imaginary part of P^H y is the real part of P^H (-i y), of y turned by a quarter.
+  VectorXd turned(2 * count);
+  for (int i = 0; i < count; ++i) turned[2 * i] = y(2 * i + 1, 0), turned[2 * i + 1] = -y(2 * i, 0);
+  const VectorXd real = rhs_.transpose() * y.col(0), imaginary = rhs_.transpose() * turned;
+  g_ = QT - real.tail(integers) - Complex(0, 1) * imaginary.tail(integers);
+  MatrixXd S = QQ.real();
+  for (Eigen::Index first = 0; first < integers; first += kColumns) {
+    const Eigen::Index some = std::min<Eigen::Index>(kColumns, integers - first);
+    const MatrixXd x = solving_->factor.solve(MatrixXd(rhs_.middleCols(1 + first, some)));
+    S.middleCols(first, some) -= (rhs_.transpose() * x).bottomRows(integers);
   }
-  const MatrixXd x = factor.solve(b);
-  MatrixXcd solved(count, rhs.cols());
-  for (int i = 0; i < count; ++i) solved.row(i) = x.row(2 * i) + Complex(0, 1) * x.row(2 * i + 1);
-  y_ = VectorXcd::Zero(net.vertex_count());
-  Y_ = MatrixXcd::Zero(net.vertex_count(), integers);
-  for (int v = 0; v < net.vertex_count(); ++v) {
-    if (unknown[v] < 0) continue;
-    y_[v] = solved(unknown[v], 0);
-    Y_.row(v) = solved.row(unknown[v]).tail(integers);
-  }
-  const MatrixXcd R = rhs.rightCols(integers);
-  g_ = QT - R.adjoint() * solved.col(0);
-  MatrixXd S = (QQ - R.adjoint() * solved.rightCols(integers)).real();
   S = (0.5 * (S + S.transpose())).eval();
   if (integers > 0) {
     S.diagonal().array() += 1e-12 * S.trace() / static_cast<double>(integers);
@@ -160,8 +163,21 @@ std::vector<NearestMap::Rounded> NearestMap::round(Complex factor) const {
 }
 
 VectorXcd NearestMap::functions(const Rounded& rounded) const {
-  VectorXcd y = rounded.factor * y_;
-  if (rounded.z.size() > 0) y -= Y_ * rounded.z.cast<double>().cast<Complex>();
+  // The right side for another factor f = a + i b turns with it: a b0 + b (i b0).
+  VectorXd b = rounded.factor.real() * rhs_.col(0);
+  const VectorXd wanted = rhs_.col(0);
+  for (Eigen::Index i = 0; i < b.size(); i += 2) {
+    b[i] -= rounded.factor.imag() * wanted[i + 1];
+    b[i + 1] += rounded.factor.imag() * wanted[i];
+  }
+  if (rounded.z.size() > 0) b -= rhs_.rightCols(rounded.z.size()) * rounded.z.cast<double>();
+  const std::lock_guard lock(solving_->one_at_a_time);
+  const MatrixXd x = solving_->factor.solve(b);
+  VectorXcd y = VectorXcd::Zero(std::ssize(unknown_));
+  for (std::size_t v = 0; v < unknown_.size(); ++v) {
+    const Eigen::Index row = 2 * unknown_[v];
+    if (row >= 0) y[static_cast<Eigen::Index>(v)] = Complex(x(row, 0), x(row + 1, 0));
+  }
   return y;
 }
 

@@ -1,8 +1,11 @@
 // The map nearest to given frames, and the whole numbers for it.
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <vector>
 
+#include "solver/direct/sparse_cholesky.h"
 #include "turns/level_field.h"
 #include "turns/transitions.h"
 
@@ -29,9 +32,13 @@ class NearestMap {
   Eigen::VectorXcd functions(const Rounded& rounded) const;
 
  private:
-  const TurnedSpace& space_;
-  Eigen::VectorXcd y_;  // for f = 1 and z = 0
-  Eigen::MatrixXcd Y_;  // #V x #z, by which y falls for each z
+  std::vector<int> unknown_;         // #V, -1 where y is 0
+  Eigen::SparseMatrix<double> rhs_;  // for f = 1 and z = 0, and by what it falls for each z; 2 #unknowns rows
+  struct Solving {
+    solver::SparseCholesky factor;
+    std::mutex one_at_a_time;
+  };
+  std::unique_ptr<Solving> solving_ = std::make_unique<Solving>();
   Eigen::MatrixXd B_;   // #z x #z
   Eigen::VectorXcd g_;  // B^T B z0(f) = Re(f g)
 };

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "evening/evening.h"
 #include "tiling/greens/coarse_level.h"
 #include "turns/rounding.h"
 
@@ -16,8 +15,12 @@ namespace {
 using Eigen::VectorXcd;
 
 constexpr int kFewTriangles = 4000, kMoreTriangles = 20'000;  // of the levels on which cones are searched for
-constexpr int kTries = 4;                                     // of the nearest whole numbers
-constexpr int kMantissa = 23;                                 // of single precision, less the sign
+constexpr int kCompared = 3;                                  // of the cones found on the fewer
+constexpr double kTilesCompared = 400;
+constexpr int kTries = 3;                       // of the nearest whole numbers
+constexpr double kFurtherApart[] = {1.3, 1.7};  // factors, where triangles are flipped
+constexpr double kHelps = 0.5;                  // of the flipped area: else no more is tried
+constexpr int kMantissa = 23;                   // of single precision, less the sign
 
 // Cones on a surface, from those of a level of it: #V.
 std::vector<int> carried(const mesh::Surface& surface, const tiling::CoarseLevel& level, const Cones& cones) {
@@ -29,7 +32,8 @@ std::vector<int> carried(const mesh::Surface& surface, const tiling::CoarseLevel
   return missing;
 }
 
-// The cones: those of least cost of many starts on few triangles, then a short search on more.
+// The cones with the least strain among those of least cost of many starts on few triangles, then a short search on
+// more.
 std::vector<int> cones_of(const std::shared_ptr<const mesh::Surface>& surface, const ConeOptions& wanted,
                           Execution& execution) {
   if (surface->intrinsic()) throw TopologyError("a turned map needs positions: the surface has edge lengths alone");
@@ -38,9 +42,18 @@ std::vector<int> cones_of(const std::shared_ptr<const mesh::Surface>& surface, c
   execution.stage("cones", 0, 1);
   const tiling::CoarseLevel fine = tiling::coarse_level(surface, execution, kMoreTriangles);
   const tiling::CoarseLevel coarse = tiling::coarse_level(fine.surface, execution, kFewTriangles);
-  const Cones found = find_cones(*coarse.surface, wanted, execution);
+  std::vector<Cones> found = find_cones(*coarse.surface, wanted, execution);
+  found.resize(std::min<std::size_t>(found.size(), kCompared));
+  const Cones* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Cones& cones : found) {
+    execution.report(1);
+    const PlacedCones placed(coarse.surface, wanted, cones.missing);
+    const double strain = placed.strain(kTilesCompared, evening::kUsualEvenness, execution);
+    if (best == nullptr || strain < least) least = strain, best = &cones;
+  }
   return carried(*surface, fine,
-                 refined_cones(*fine.surface, carried(*fine.surface, coarse, found), wanted, execution));
+                 refined_cones(*fine.surface, carried(*fine.surface, coarse, *best), wanted, execution));
 }
 
 // The UVs of polygons' corners in coordinates of the lattice, exact on a grid of powers of two: turns of the lattice
@@ -103,34 +116,22 @@ std::vector<Jump> jumps_of(const mesh::Surface& surface, const Net& net, const F
 }  // namespace
 
 PlacedCones::PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, Execution& execution)
+    : PlacedCones(surface, options, cones_of(surface, options, execution)) {}
+
+PlacedCones::PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options,
+                         std::vector<int> missing)
     : surface_(std::move(surface)),
+      options_(options),
       net_(*surface_),
-      missing_(cones_of(surface_, options, execution)),
+      missing_(std::move(missing)),
       frames_(make_frames(*surface_, net_, options.k, missing_)),
       space_(make_space(net_, frames_, options.k, missing_)),
       nearest_(net_, frames_, space_) {
   level_ =
       options.along ? level_factor(net_, frames_, options.k, surface_->polygons.vertices, *options.along) : Complex(1);
-  execution.finish();
 }
 
-std::vector<int> PlacedCones::cones() const {
-  std::vector<int> result;
-  for (int v = 0; v < surface_->vertex_count; ++v) {
-    if (missing_[v] != 0 && net_.hole[v] < 0) result.push_back(v);
-  }
-  return result;
-}
-
-std::vector<int> PlacedCones::missing() const {
-  std::vector<int> result;
-  for (const int v : cones()) result.push_back(missing_[v]);
-  return result;
-}
-
-VectorXcd PlacedCones::evened(const NearestMap::Rounded& rounded, double evenness, Execution& execution) const {
-  VectorXcd y = nearest_.functions(rounded);
-  if (evenness == 0) return y;
+evening::Kept PlacedCones::kept() const {
   evening::Kept kept;
   for (int v = 0; v < surface_->vertex_count; ++v) {
     if (space_.is_fixed[v]) kept.u.push_back(v);
@@ -139,33 +140,71 @@ VectorXcd PlacedCones::evened(const NearestMap::Rounded& rounded, double evennes
   kept.turns.resize(surface_->triangles.size());
   for (int side = 0; side < net_.side_count(); ++side)
     kept.turns[side / 3][side % 3] = turned_by(space_.lattice, space_.corner_turn[side]);
+  return kept;
+}
+
+VectorXcd PlacedCones::evened(const NearestMap::Rounded& rounded, double evenness, Execution& execution) const {
+  VectorXcd y = nearest_.functions(rounded);
+  if (evenness == 0) return y;
   const uv::UvArray uv = in_plane(space_.lattice, corner_uv(*surface_, net_, space_, y, rounded.z));
-  const uv::UvArray delta = evening::evened(*surface_, uv, kept, evenness, execution);
+  const uv::UvArray delta = evening::evened(*surface_, uv, kept(), evenness, execution);
   for (int v = 0; v < surface_->vertex_count; ++v) y[v] += Complex(delta(v, 0), delta(v, 1));
   return y;
 }
 
-TurnedMap PlacedCones::turned_map(double tiles, double evenness, Execution& execution) const {
+std::vector<NearestMap::Rounded> PlacedCones::nearest(double tiles) const {
+  return nearest_.round(std::sqrt(tiles / net_.whole_area / space_.lattice.second.imag()) * level_);
+}
+
+double PlacedCones::strain(double tiles, double evenness, Execution& execution) const {
+  const NearestMap::Rounded rounded = nearest(tiles)[0];
+  const VectorXcd y = evened(rounded, evenness, execution);
+  return strain_of(corner_uv(*surface_, net_, space_, y, rounded.z), evenness, execution);
+}
+
+double PlacedCones::strain_of(const uv::UvArray& uv, double evenness, Execution& execution) const {
+  return evening::strain(*surface_, in_plane(space_.lattice, uv), kept(), evenness, execution);
+}
+
+PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Execution& execution) const {
   execution.stage("rounding", 0, 0.2);
   execution.report(0);
-  const double size = std::sqrt(tiles / net_.whole_area / space_.lattice.second.imag());
-  const std::vector<NearestMap::Rounded> nearest = nearest_.round(size * level_);
-  // The nearest whole numbers with which no triangle is flipped, or the fewest: they pin cones to centres of turns.
-  TurnedMap result;
-  double least = std::numeric_limits<double>::infinity();
+  const std::vector<NearestMap::Rounded> nearest = this->nearest(tiles);
+  // Whole numbers pin cones to centres of turns.
+  Judged best;
   const int tries = std::min<int>(kTries, static_cast<int>(nearest.size()));
-  for (int i = 0; i < tries && least > 0; ++i) {
+  for (int i = 0; i < tries; ++i) {
     execution.stage("evening", 0.2 + 0.8 * i / tries, 0.2 + 0.8 * (i + 1) / tries);
     const VectorXcd y = evened(nearest[i], evenness, execution);
     uv::UvArray uv = corner_uv(*surface_, net_, space_, y, nearest[i].z);
-    const double flipped = flipped_area(*surface_, net_, uv);
-    if (flipped < least) {
-      least = flipped;
-      result = {std::move(uv), jumps_of(*surface_, net_, frames_, space_, nearest[i].z)};
+    const std::pair<double, double> bad{flipped_area(*surface_, net_, uv), strain_of(uv, evenness, execution)};
+    if (!(bad < best.bad)) continue;
+    best = {{std::move(uv), jumps_of(*surface_, net_, frames_, space_, nearest[i].z), {}, {}}, bad};
+  }
+  for (int v = 0; v < surface_->vertex_count; ++v) {
+    if (missing_[v] == 0 || net_.hole[v] >= 0) continue;
+    best.map.cones.push_back(v);
+    best.map.missing.push_back(missing_[v]);
+  }
+  return best;
+}
+
+TurnedMap PlacedCones::turned_map(double tiles, double evenness, Execution& execution) const {
+  Judged best = best_map(tiles, evenness, execution);
+  const std::lock_guard lock(others_->one_at_a_time);
+  for (std::size_t i = 0; i < std::size(kFurtherApart) && best.bad.first > 0; ++i) {
+    if (i == others_->placed.size()) {
+      ConeOptions wanted = options_;
+      wanted.apart *= kFurtherApart[i];
+      others_->placed.push_back(std::make_unique<PlacedCones>(surface_, wanted, execution));
     }
+    Judged other = others_->placed[i]->best_map(tiles, evenness, execution);
+    const bool helps = other.bad.first < kHelps * best.bad.first;
+    if (other.bad < best.bad) best = std::move(other);
+    if (!helps) break;
   }
   execution.finish();
-  return result;
+  return std::move(best.map);
 }
 
 }  // namespace holomorph::turns

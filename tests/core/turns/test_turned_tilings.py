@@ -1,5 +1,7 @@
 """Tilings whose sides of a cut may also turn: their jumps are symmetries of the texture, to the last bit."""
 
+from dataclasses import replace
+
 import families
 import numpy as np
 import pytest
@@ -26,6 +28,21 @@ def surface(request):
 def tiling(surface, turns, tiles=300.0, **options):
     options = {"evenness": 0.5} | options
     return automatic_structure(surface).tile(tiles, turns=turns, **options)
+
+
+def bumps():
+    """A ball with seven thick thorns."""
+    ball = families.geodesic_sphere(20)
+    points = ball.vertices / np.linalg.norm(ball.vertices, axis=1, keepdims=True)
+    turn = 2.4 * np.arange(7)
+    height = np.linspace(-0.9, 0.9, 7)
+    around = np.sqrt(1 - height**2)
+    tips = np.column_stack([around * np.cos(turn), around * np.sin(turn), height])
+    return replace(ball, vertices=points * (1 + 0.8 * (np.maximum(points @ tips.T, 0) ** 12).sum(axis=1))[:, None])
+
+
+def block_of_three_holes():
+    return families.block_with_holes(3, refine=3, jitter=0.2)
 
 
 def both_sides(surface, made):
@@ -82,6 +99,20 @@ def test_it_is_more_even_than_what_may_only_be_shifted(turns):
     assert turned.quality.size_range < shifted.quality.size_range
     assert turned.quality.mean_angle < shifted.quality.mean_angle and turned.cost < 0.8 * shifted.cost
     assert not turned.quality.flipped.any()
+
+
+@pytest.mark.parametrize("turns", [2, 4, 6])
+@pytest.mark.parametrize("mesh", ["bumps", "block", "scaffold"])
+def test_cones_are_apart_and_nothing_is_flipped(turns, mesh):
+    """By most of the distance between the centres of turns, since two that are nearer would lie at one of them."""
+    meshes = {"bumps": bumps, "block": block_of_three_holes, "scaffold": lambda: families.scaffold(2)}
+    surface = surface_of(meshes[mesh]())
+    made = tiling(surface, turns, tiles=400.0)
+    assert not made.quality.flipped.any()
+    points = surface.vertices[made.cones]
+    between = np.linalg.norm(points[:, None] - points, axis=2)[np.triu_indices(len(points), 1)]
+    centres = {2: 0.5, 4: np.sqrt(0.5), 6: np.sqrt(2 / np.sqrt(3))}[turns]
+    assert between.min(initial=np.inf) > 0.69 * centres * np.sqrt(surface.area / 400)
 
 
 def test_a_flat_disk_and_a_straight_tube_have_no_cones():
