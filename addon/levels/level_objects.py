@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import bpy
 
 from .. import compatibility, native
-from ..results import report, tags
+from ..results import report, stored, tags
 from ..results.write import WriteOptions
 from ..results.write import write as write_maps
 from ..scene import mesh_io, targets
@@ -133,12 +133,18 @@ def _transfer_weights(context, obj, made):
         bpy.data.objects.remove(bare)
 
 
+def why_not(obj):
+    """Why levels of an object would show seams, or "". Where edges collapse, UVs are moved, but not turned."""
+    return "" if stored.turns(obj.get(report.PROPERTY)) == 1 else stored.TURNED_MAP
+
+
 class Source:
     """The object as it was when the work began."""
 
     def __init__(self, obj):
         (self.target,) = targets.collect([obj])
-        self._data = None if self.target.refused else transfer.read(obj.data, self.target.polygons)
+        self.refused = self.target.refused or why_not(obj)
+        self._data = None if self.refused else transfer.read(obj.data, self.target.polygons)
 
     def work(self, options, progress=None):
         """The `LevelsWork`."""
@@ -174,8 +180,8 @@ class Source:
 def make(context, obj, options, presentation):
     """What `Source.write` gives, here and now."""
     source = Source(obj)
-    if source.target.refused:
-        return [], [source.target.refused]
+    if source.refused:
+        return [], [source.refused]
     work = source.work(options)
     work.run()
     with transaction.one_step(context, [obj]) as step:

@@ -38,7 +38,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
 
         obj = context.active_object
         text = obj.get(report.PROPERTY) if obj is not None and obj.type == "MESH" else None
-        if len(stored.cones(text)):
+        if stored.turns(text) != 1:
             return "The cones of a map that turns stay where they are: set Turns to None for poles to drag"
         if "asked" not in stored.parsed(text) or not stored.marks(text)[1].any():
             return "Select an object with poles of Seamless Tiling"

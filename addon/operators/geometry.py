@@ -61,17 +61,22 @@ class OnTiling(WorkOperator):
     write(step, obj, found) : makes objects of what was found on the parts; the sentence that tells of it
     """
 
+    may_turn = True  # whether it can be made where sides of cuts turn
+
     @classmethod
     def why_not(cls, context):
         obj = context.view_layer.objects.active
         return "" if obj is not None and obj.type == "MESH" else "Make a mesh object active"
 
     def prepare(self, context):
+        from ..results import stored
         from ..things import geometry
 
         obj = context.view_layer.objects.active
         self._name = obj.name, obj.library.filepath if obj.library else None
         self._source = geometry.source(obj)
+        if self._source[-1] != 1 and not self.may_turn:
+            raise ValueError(f"{obj.name}: {stored.TURNED_MAP}")
 
     def make_work(self, progress):
         from ..things import parts
@@ -125,9 +130,13 @@ class HOLOMORPH_OT_geometry(OnTiling, bpy.types.Operator):
             layout.prop(self, name)
 
     def prepare(self, context):
+        from ..things import points
+
         _check_rows(self.arrangement == "SHIFTED", self.rows)
         self._piece = self._chosen(context.view_layer.objects.active)
         super().prepare(context)
+        if not points.is_left_by_turns(self._source[-1], self.columns, self.rows, self.arrangement, self.place):
+            raise ValueError(points.LEFT_BY_TURNS[self._source[-1]])
 
     def _chosen(self, obj):
         """A name of a shipped piece, an object or a collection. @throws ValueError"""
@@ -148,7 +157,8 @@ class HOLOMORPH_OT_geometry(OnTiling, bpy.types.Operator):
 
         shipped = pieces.PIECES.get(self.piece, pieces.ANY)
         is_shifted = {"STRAIGHT": False, "SHIFTED": True}.get(self.arrangement, shipped.is_shifted)
-        self._arranged = partial(points.arrangement, shipped.height, is_shifted, self.columns, self.rows, self.place)
+        asked = shipped.height, is_shifted, self.columns, self.rows, self.place, self._source[-1]
+        self._arranged = partial(points.arrangement, *asked)
         return partial(points.found, arranged=self._arranged)
 
     def write(self, step, obj, found):
@@ -196,6 +206,7 @@ class HOLOMORPH_OT_cells(OnTiling, bpy.types.Operator):
 
     bl_idname = "object.holomorphic_cells"
     bl_label = "Cut along Tiling"
+    may_turn = False
 
     columns: IntProperty(name="Columns", description=ABOUT["columns"], default=2, min=1, soft_max=16, max=1000)
     rows: IntProperty(

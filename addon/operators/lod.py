@@ -47,8 +47,8 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
         from ..levels import level_objects
 
         self._source = level_objects.Source(context.view_layer.objects.active)
-        if self._source.target.refused:
-            raise ValueError(f"{self._source.target.name}: {self._source.target.refused}")
+        if self._source.refused:
+            raise ValueError(f"{self._source.target.name}: {self._source.refused}")
 
     def make_work(self, progress):
         from ..levels import levels

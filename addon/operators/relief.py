@@ -25,6 +25,7 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
 
     bl_idname = "object.holomorphic_relief"
     bl_label = "Relief"
+    may_turn = False
 
     image: StringProperty(name="Image", description=ABOUT["image"], options=ONCE)
     depth: FloatProperty(
@@ -63,7 +64,7 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
     def make_work(self, progress):
         from ..things import relief
 
-        polygons, uv, lattice = self._source
+        polygons, uv, lattice, turns = self._source
         if self._is_turned:
             polygons, uv = relief.turned_over(polygons, uv)
         names = ("level", "tolerance", "most_triangles")
@@ -71,6 +72,7 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
             polygons,
             uv,
             lattice,
+            turns,
             None,
             progress,
             heights=self._heights,

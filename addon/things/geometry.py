@@ -18,22 +18,22 @@ from . import pieces, placing, tree, wires
 PIECES_OF, WIRES_OF, CELLS_OF, RELIEF_OF = (  # custom properties
     f"holomorph_{kind}_of" for kind in ("geometry", "lines", "cells", "relief")
 )
+LATTICES = {6: "hex"}  # of maps of the button that turn
 SHARP = math.radians(35)  # angle of a piece's faces above which their edge is seen
 
 
 def source(obj):
-    """(polygons, (#C, 2) UVs, name of the lattice) of the tiling of an object. @throws ValueError with one sentence"""
+    """(polygons, (#C, 2) UVs, name of the lattice, `Map.turns`) of the tiling of an object. @throws ValueError with one
+    sentence"""
     polygons = mesh_io.read_polygons(obj.data, gathering.linear(obj))
     if not polygons.face_count:
         raise ValueError(f"{obj.name}: it has no faces")
     name = main_map(obj)
     if not name:
         raise ValueError(f"{obj.name}: it has no UV map: press Seamless Tiling first")
-    asked = stored.asked(obj.get(report.PROPERTY))
-    if len(stored.cones(obj.get(report.PROPERTY))) and name == uv_maps.main_map(obj.data):
-        raise ValueError(f"{obj.name}: its map turns, and tiles are found on maps that do not: set Turns to None")
+    asked, turns = stored.asked(obj.get(report.PROPERTY)), stored.turns(obj.get(report.PROPERTY))
     uv = uv_maps.read_corners(obj.data, polygons, name).astype(np.float64)
-    return polygons, uv, asked.lattice if asked else "square"
+    return polygons, uv, asked.lattice if asked else LATTICES.get(turns, "square"), turns
 
 
 def main_map(obj):

@@ -22,6 +22,7 @@ class PartsWork(jobs.Work):
     polygons: object  # mesh_io.Polygons
     uv: np.ndarray  # (#C, 2)
     lattice: str
+    turns: int
     find: object  # of a `holomorph.TiledSurface`
     progress: object = None
     found: list = field(default_factory=list)
@@ -40,7 +41,7 @@ class PartsWork(jobs.Work):
                 raise holomorph.Cancelled("cancelled during the search for tiles")
             uv = self.uv if part.is_whole else self.uv[part.corner_index]
             try:
-                tiled = holomorph.TiledSurface(part, uv, self.lattice)
+                tiled = holomorph.TiledSurface(part, uv, self.lattice, turns=self.turns)
             except holomorph.TopologyError as error:
                 refusals.append(native.sentence(error))
                 self.skip(part)

@@ -21,6 +21,13 @@ class Arrangement:
     rows: int
     is_shifted: bool  # every other row by half a cell
     place: str = "CENTRES"  # of `OFFSETS`
+    turns: int = 1  # of the map
+
+    @property
+    def offset(self):
+        """Where a place is in its column and row. A half turn leaves shifted rows as they are, as it does bricks."""
+        x, y = OFFSETS[self.place]
+        return ((x - y / 2) % 1, y) if self.turns == 2 and self.is_shifted else (x, y)
 
     def cell(self, lattice):
         """The `pieces.Cell` of each place, for the (2, 2) lattice of a tiling whose first translation lies along u."""
@@ -29,13 +36,29 @@ class Arrangement:
         return Cell(up / width, (along / width + self.is_shifted / 2) % 1)
 
 
-def arrangement(height, is_shifted, columns, rows, place, lattice):
-    """The `Arrangement` in tiles of this (2, 2) lattice; rows 0 makes cells as high as a piece wants it, in widths."""
+LEFT_BY_TURNS = {
+    4: "a map with quarter turns has as many rows as columns, not shifted, with places at centres or corners",
+    6: "a map with sixth turns has as many rows as columns, not shifted, with places at corners",
+}
+
+
+def is_left_by_turns(turns, columns, rows, rows_lie, place):
+    """Whether places can lie so on a map that turns."""
+    if turns <= 2:
+        return True
+    return rows in (0, columns) and rows_lie != "SHIFTED" and place in ("CENTRES", "CORNERS")[turns == 6 :]
+
+
+def arrangement(height, is_shifted, columns, rows, place, turns, lattice):
+    """The `Arrangement` in tiles of this (2, 2) lattice; rows 0 makes cells as high as a piece wants it, in widths, but
+    on a map that turns by less than a half."""
+    if turns > 2:
+        return Arrangement(columns, columns, False, place, turns)
     asked = rows or max(1, round(columns * lattice[1, 1] / (lattice[0, 0] * height)))
     is_shifted = is_shifted and not _is_shifted_already(columns, asked, lattice)
     if is_shifted and not rows:
         asked = 2 * max(1, round(asked / 2))
-    return Arrangement(columns, asked, is_shifted and asked % 2 == 0, place)
+    return Arrangement(columns, asked, is_shifted and asked % 2 == 0, place, turns)
 
 
 def _is_shifted_already(columns, rows, lattice):
@@ -47,10 +70,10 @@ def found(tiled, arranged):
     """(attributes of the places on a `holomorph.TiledSurface`, (n,) or (n, 3), by name; its lattice). `arranged` gives
     the `Arrangement` for a lattice."""
     arranged = arranged(tiled.lattice)
-    places = tiled.places((arranged.columns, arranged.rows), OFFSETS[arranged.place], arranged.is_shifted)
+    places = tiled.places((arranged.columns, arranged.rows), arranged.offset, arranged.is_shifted)
     width = tiled.lattice[0, 0] / arranged.columns
     inside = places.uv @ np.linalg.inv(tiled.lattice).T
-    row = np.rint(inside[:, 1] * arranged.rows - OFFSETS[arranged.place][1]).astype(np.int64)
+    row = np.rint(inside[:, 1] * arranged.rows - arranged.offset[1]).astype(np.int64)
     column = np.floor(inside[:, 0] * arranged.columns).astype(np.int64)
     steps = _steps(places, width)
     size = width * places.sizes

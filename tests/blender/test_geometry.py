@@ -62,7 +62,7 @@ def test_there_is_a_piece_at_every_place(piece):
 def test_the_number_of_places_is_that_of_the_cells(lattice, arrangement):
     """On a torus without poles: its area in tiles, times the cells in each."""
     made = put(tiled(torus(), lattice=lattice), columns=3, rows=4, arrangement=arrangement)
-    polygons, uv, name = geometry.source(bpy.data.objects["Torus"])
+    polygons, uv, name, _ = geometry.source(bpy.data.objects["Torus"])
     starts, following = polygons.face_offsets[:-1], np.arange(len(uv)) + 1
     following[polygons.face_offsets[1:] - 1] = starts
     area = np.sum(uv[:, 0] * uv[following, 1] - uv[following, 0] * uv[:, 1]) / 2
@@ -269,7 +269,7 @@ def picture(values):
 
 def shares(made):
     """(n, 2) of a UV unit: where the places lie in it."""
-    polygons, uv, _ = geometry.source(bpy.data.objects["Torus"])
+    polygons, uv, *_ = geometry.source(bpy.data.objects["Torus"])
     corners = np.stack([attribute(made, name) for name in tree.CORNERS], axis=1)
     return np.einsum("ni,nix->nx", attribute(made, tree.BARYCENTRIC), uv[corners]) % 1
 

@@ -182,10 +182,10 @@ def test_it_tells_of_crossings_and_of_plain_parts():
 def test_it_is_cancelled():
     picture()
     obj = tiled(torus())
-    polygons, uv, lattice = geometry.source(obj)
+    polygons, uv, lattice, turns = geometry.source(obj)
     pixels = image_io.read_pixels(bpy.data.images["Dots"])
     found = relief.heights_of(pixels, None)
-    work = relief.RaisingWork(polygons, uv, lattice, None, lambda fraction: None, heights=found)
+    work = relief.RaisingWork(polygons, uv, lattice, turns, None, lambda fraction: None, heights=found)
     work.cancel()
     work.run()
     assert type(work.error).__name__ == "Cancelled"

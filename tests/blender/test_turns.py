@@ -308,21 +308,83 @@ def test_poles_of_a_turned_map(options):
         assert tile(**options) == {"FINISHED"} and [one["turns"] for one in tilings(obj)] == [1]
 
 
-THINGS = [
-    (bpy.ops.object.holomorphic_relief, {}),
-]
-
-
-@pytest.mark.parametrize(("operator", "options"), THINGS)
-def test_what_needs_tiles_that_are_only_shifted_says_so(operator, options):
+@pytest.mark.parametrize("operator", ["relief", "cells", "levels"])
+def test_what_needs_tiles_that_are_only_shifted_says_so(operator):
     obj = ball()
     tile(turns="QUARTER")
-    image(checker(16, 2))
     before = everything(obj)
-    with pytest.raises(RuntimeError, match="its map turns"):
-        operator(**options)
+    with pytest.raises(
+        RuntimeError, match="Ball: its map turns, and this is made of maps that do not: set Turns to None"
+    ):
+        getattr(bpy.ops.object, f"holomorphic_{operator}")()
     assert everything(obj) == before
-    assert obj.name in bpy.data.objects
+
+
+def test_uvs_that_turn_are_not_carried():
+    given = torus()
+    tile(turns="QUARTER")
+    taking = torus("Other")
+    select(taking, given)
+    before = everything(given), everything(taking)
+    with pytest.raises(RuntimeError, match="Torus: its map turns, and this is made of maps that do not"):
+        bpy.ops.object.holomorphic_carry()
+    assert (everything(given), everything(taking)) == before
+
+
+def things_of(obj, kind):
+    (made,) = [one for one in bpy.data.objects if one.get(f"holomorph_{kind}_of") == obj.name and one.modifiers]
+    return made
+
+
+@pytest.mark.parametrize("turns", [2, 4])
+@pytest.mark.parametrize("place", ["CENTRES", "CORNERS"])
+def test_pieces_lie_in_every_cell(place, turns):
+    """As many as the area in cells, and at cones what is missing there: on a ball all of them together are two."""
+    obj = ball()
+    tile(turns=NAMES[turns], tiles=100)
+    bpy.ops.object.holomorphic_geometry(piece="STUD", columns=2, place=place)
+    points = things_of(obj, "geometry").data.vertices
+    cells = 4 * tilings_area(obj)
+    assert abs(len(points) - cells) <= 2 and len(points) > 100
+    at = np.array([point.co for point in points])
+    assert np.linalg.norm(at[:, None] - at[None], axis=2)[~np.eye(len(at), dtype=bool)].min() > 0.01
+
+
+def tilings_area(obj):
+    layer, faces = uv(obj), [polygon.loop_indices for polygon in obj.data.polygons]
+    corners = np.array([layer[list(face)] for face in faces])
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2
+
+
+@pytest.mark.parametrize("turns", [2, 4])
+def test_shifted_pieces_need_half_turns(turns):
+    obj = ball()
+    tile(turns=NAMES[turns])
+    if turns == 2:
+        assert bpy.ops.object.holomorphic_geometry(piece="BRICK", columns=2) == {"FINISHED"}
+        assert len(things_of(obj, "geometry").data.vertices) > 50
+        return
+    before = everything(obj)
+    with pytest.raises(RuntimeError, match="a map with quarter turns has as many rows as columns, not shifted"):
+        bpy.ops.object.holomorphic_geometry(piece="BRICK", columns=2, arrangement="SHIFTED", rows=2)
+    assert everything(obj) == before
+    assert bpy.ops.object.holomorphic_geometry(piece="BRICK", columns=2) == {"FINISHED"}
+
+
+@pytest.mark.parametrize("turns", [2, 4, 6])
+def test_wires_run_along_the_lines(turns):
+    obj = ball()
+    tile(turns=NAMES[turns])
+    assert bpy.ops.object.holomorphic_lines(per_tile=2) == {"FINISHED"}
+    mesh = things_of(obj, "lines").data
+    ends = np.array([edge.vertices[:] for edge in mesh.edges])
+    points = np.array([vertex.co for vertex in mesh.vertices])
+    loose = points[np.bincount(ends.ravel(), minlength=len(points)) == 1]
+    cones = np.array([obj.data.vertices[v].co for one in tilings(obj) for v in one["cones"]])
+    assert np.linalg.norm(loose[:, None] - cones[None], axis=2).min(axis=1).max() < (1e-4 if turns == 6 else 1e-6)
+    steps = np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1)
+    assert steps.max() <= max((obj.data.vertices[a].co - obj.data.vertices[b].co).length for a, b in obj.data.edge_keys)
 
 
 def test_again_and_undone():

@@ -150,9 +150,7 @@ class Map(Value):
         none."""
         if not self.tiling:
             raise TopologyError(f'the map is not a tiling: its kind is {self.kind!r}; main="seamless" makes one')
-        if self.turns != 1:
-            raise TopologyError("nothing is placed in the tiles of a tiling that turns yet: take turns=1")
-        return TiledSurface(self.surface, self.uv, self.tiling.lattice)
+        return TiledSurface(self.surface, self.uv, self.tiling.lattice, turns=self.turns)
 
     @property
     def density(self) -> float:

@@ -14,16 +14,22 @@ def cut_open(surface, is_seam):
     """Cuts the surface open along the edges of this mask, (#E,), but leaves no sliver without the neighbour at its
     longest side: no part is without area."""
     is_seam = surface._native.cut_without_sliver_parts(is_seam).astype(bool)
-    vertices = surface.triangles.ravel().astype(np.int64)
-    fans = _fans(surface._native.triangle_edges, is_seam, int(np.bincount(vertices).max()))
-    _, first, new = np.unique(vertices * len(fans) + fans, return_index=True, return_inverse=True)
-    index = vertices[first]
+    index, new = parted_vertices(surface, is_seam)
     corner_vertices = np.empty(len(surface.corner_vertices), np.int32)
-    corner_vertices[surface.triangle_corners.ravel()] = new.ravel()
+    corner_vertices[surface.triangle_corners.ravel()] = new
     native = _native.Surface.from_polygons(surface.vertices[index], corner_vertices, surface.face_offsets)
     vertex_index = arrays.frozen(surface.vertex_index[index])
     origin = Origin(vertex_index, surface.face_index, surface.corner_index, surface.given_vertex_count, up=surface.up)
     return Surface._of(native, origin)
+
+
+def parted_vertices(surface, is_seam):
+    """((n,) vertices of the surface that those are copies of which it has when it is cut along the edges of this mask,
+    (3 #T,) the copy at each triangle corner)."""
+    vertices = surface.triangles.ravel().astype(np.int64)
+    fans = _fans(surface._native.triangle_edges, is_seam, int(np.bincount(vertices).max()))
+    _, first, new = np.unique(vertices * len(fans) + fans, return_index=True, return_inverse=True)
+    return vertices[first], new.ravel()
 
 
 def _fans(triangle_edges, is_seam, most):

@@ -18,9 +18,11 @@ from ..core.value import Value, counted, quoted
 from ..mesh.checks import check_options, check_type
 from ..mesh.surface import Surface
 from ..tiling.tilings import MOST_PER_TILE, generators
+from ..tiling.turned import TURNS
 from .cells import Cells
 from .places import Lines, Places
 from .relief import Relief, raised
+from .turned_surface import Curves, check_grid, directions, joined, opened
 
 
 class TiledSurface(Value):
@@ -36,6 +38,7 @@ class TiledSurface(Value):
     lattice : of the texture, as in `Structure.tile`: a tile is the parallelogram of its two translations, by default
         the unit square
     threads : number of threads; None for all processors. No result depends on it
+    turns : 2, 4 or 6 where the UVs may also turn, see `Tiling.turns`: there are places and lines that the turn leaves
 
     Raises TopologyError for a surface without positions, and for UVs that are not a tiling: where they jump by parts of
     a tile, or differently at the two ends of an edge, or two poles are neighbours or one lies on the boundary;
@@ -43,7 +46,13 @@ class TiledSurface(Value):
     """
 
     def __init__(
-        self, surface: Surface, uv: ArrayLike, lattice: str | ArrayLike = "square", threads: int | None = None
+        self,
+        surface: Surface,
+        uv: ArrayLike,
+        lattice: str | ArrayLike = "square",
+        threads: int | None = None,
+        *,
+        turns: int = 1,
     ) -> None:
         check_type(surface, Surface)
         if surface.vertices is None:
@@ -56,7 +65,21 @@ class TiledSurface(Value):
         self.uv: Reals = arrays.frozen(given.copy()) if given.flags.writeable else given
         a, b = generators(lattice)
         self.lattice: Reals = arrays.frozen(np.array([[a.real, b.real], [a.imag, b.imag]]))
-        self.poles: Integers = self._coordinates().poles()
+        if turns not in TURNS:
+            raise ValueError(f"turns is {quoted(turns)}; one of {', '.join(map(str, TURNS))} is needed")
+        self.turns: int = turns
+        poles = self._coordinates().poles()
+        self.poles: Integers = arrays.frozen(self._opened.vertices[poles]) if self._opened else poles
+
+    _unpickled = ("_opened",)
+
+    @cached_property
+    def _opened(self):
+        return None if self.turns == 1 else opened(self.surface, self.uv, self.turns, self.lattice)
+
+    @property
+    def _native(self):
+        return self._opened.native if self._opened else self.surface._native
 
     def _facts(self):
         return [repr(self.surface), counted(len(self.poles), "pole")]
@@ -86,16 +109,20 @@ class TiledSurface(Value):
         offset = arrays.numbers(_pair(offset, "offset"), "offset")
         if not np.isfinite(offset).all():
             raise ValueError(f"offset is {tuple(offset)}; two finite numbers are needed")
+        check_grid(self.turns, (columns, rows), offset, shifted_rows)
         shift = rows // 2 if shifted_rows else 0
         coordinates = self._coordinates(((columns, -shift), (0, rows)), offset / (columns, rows))
-        found = _native.places(self.surface._native, coordinates, threads=self._threads)
-        numbers = found.numbers
+        found = _native.places(self._native, coordinates, threads=self._threads)
+        triangles, barycentric, numbers = found.triangles, found.barycentric, found.numbers
+        if self._opened:
+            kept = self._opened.first_ones(triangles, barycentric)
+            triangles, barycentric, numbers = (arrays.frozen(each[kept]) for each in (triangles, barycentric, numbers))
         row = (numbers[:, 1] + offset[1]) / rows
         column = (numbers[:, 0] + offset[0] + (numbers[:, 1] / 2 if shifted_rows else 0)) / columns
         inside = np.stack([column, row], axis=1)
         return Places(
-            triangles=found.triangles,
-            barycentric=found.barycentric,
+            triangles=triangles,
+            barycentric=barycentric,
             tiles=arrays.frozen(np.floor(inside).astype(np.int64)),
             uv=arrays.frozen(inside @ self.lattice.T),
             flipped=found.flipped,
@@ -110,19 +137,19 @@ class TiledSurface(Value):
             without a common divisor: how many of each
         per_tile : as many lines for each tile, the first between tiles
 
+        Where the tiling turns by quarters these are also the lines across, and by sixths those in three directions.
+
         Raises ValueError for others; SolverError for too many points. Cost: linear in triangles and points.
         """
         a, b = _direction(direction)
         count = _count(per_tile, "per_tile")
-        coordinates = self._coordinates(((count * b, -count * a), (0, 0)))
-        found = _native.lines(self.surface._native, coordinates, threads=self._threads)
-        return Lines(
-            offsets=found.offsets,
-            is_closed=arrays.frozen(found.is_closed.astype(bool)),
-            triangles=found.triangles,
-            barycentric=found.barycentric,
-            tiled=self,
-        )
+        found = [self._lines(count * b, -count * a) for a, b in directions((a, b), self.turns)]
+        made = joined(self._opened, found) if self._opened else found[0]
+        return Lines(*map(arrays.frozen, made), tiled=self)
+
+    def _lines(self, *step):
+        found = _native.lines(self._native, self._coordinates((step, (0, 0))), threads=self._threads)
+        return Curves(found.offsets, found.is_closed.astype(bool), found.triangles, found.barycentric)
 
     def cells(self, per_tile: tuple[int, int] = (1, 1), shifted_rows: bool = False) -> Cells:
         """The surface with one polygon for each tile: see `Cells`.
@@ -131,6 +158,7 @@ class TiledSurface(Value):
 
         Raises ValueError for others; SolverError for too many. Cost: linear in triangles and their pieces.
         """
+        self._refuse_turns("cells")
         columns, rows = _grid(per_tile, shifted_rows)
         parts = 2 if shifted_rows else 1  # of the columns: rows of bricks begin with the first or the second
         coordinates = self._coordinates(((parts * columns, 0), (0, rows)))
@@ -184,13 +212,18 @@ class TiledSurface(Value):
         Raises ValueError for others, a picture with the same height everywhere, or a depth above the size of the mesh;
         Cancelled. Cost: n log n in the triangles that are made.
         """
+        self._refuse_turns("a relief")
         count = _count(repeats, "repeats")
         return raised(self, heights, depth, count, level, tolerance, most_triangles, pole_fade, progress)
 
+    def _refuse_turns(self, thing):
+        if self.turns != 1:
+            raise TopologyError(f"{thing} cannot be made on a tiling that turns yet: take turns=1")
+
     def _coordinates(self, steps=((1, 0), (0, 1)), origin=(0.0, 0.0)):
         return _native.tile_coordinates(
-            self.surface._native,
-            self.uv,
+            self._native,
+            self._opened.uv if self._opened else self.uv,
             inverse_lattice=np.linalg.inv(self.lattice),
             origin=np.asarray(origin, float),
             steps=np.asarray(steps, np.int32),
