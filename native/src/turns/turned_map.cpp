@@ -18,6 +18,7 @@ constexpr int kFewTriangles = 4000, kMoreTriangles = 20'000;  // of the levels o
 constexpr int kCompared = 3;                                  // of the cones found on the fewer
 constexpr double kTilesCompared = 400;
 constexpr int kTries = 3;                       // of the nearest whole numbers
+constexpr int kManyTriangles = 100'000;         // from which the first one that flips none is taken
 constexpr double kFurtherApart[] = {1.3, 1.7};  // factors, where triangles are flipped
 constexpr double kHelps = 0.5;                  // of the flipped area: else no more is tried
 constexpr int kMantissa = 23;                   // of single precision, less the sign
@@ -173,7 +174,8 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Executi
   // Whole numbers pin cones to centres of turns.
   Judged best;
   const int tries = std::min<int>(kTries, static_cast<int>(nearest.size()));
-  for (int i = 0; i < tries; ++i) {
+  const bool compares = net_.triangle_count() < kManyTriangles;
+  for (int i = 0; i < tries && (compares || best.bad.first > 0); ++i) {
     execution.stage("evening", 0.2 + 0.8 * i / tries, 0.2 + 0.8 * (i + 1) / tries);
     const VectorXcd y = evened(nearest[i], evenness, execution);
     uv::UvArray uv = corner_uv(*surface_, net_, space_, y, nearest[i].z);
