@@ -217,7 +217,7 @@ class Structure(Value):
         key = surface, turns, _hashable(direction)
         tiler = self._tilers.get(key)
         if tiler is None:
-            tiler = TurnedTiler(surface, turns, direction=direction, threads=self._threads, progress=progress)
+            tiler = TurnedTiler(surface, turns, direction=direction, threads=self._threads)
         return self._tilers.keep(key, tiler)
 
     @cached_property

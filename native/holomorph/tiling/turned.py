@@ -19,21 +19,21 @@ from .tilings import LATTICES, UPRIGHT, Rounding, Tiling, along
 TURNS = (1, 2, 4, 6)
 LATTICE = {2: "square", 4: "square", 6: "hex"}  # of which a turn by this part of a full one is a symmetry
 PRICE = 5e-4  # of a cone: what it is to take off the mean square of the logarithm of the scale
-LEAST_TILES, TILES_PER_HANDLE = 100, 64  # by default
+USUAL_TILES, TILES_PER_HANDLE = 400, 64  # by default, at least
 
 
 class TurnedTiler:
-    """The cones of a surface, and what turned tilings with them are made of; changing tiles or evenness is quick.
-    Immutable.
+    """Makes turned tilings of a surface. Their cones are searched for by the first one, and kept for others with about
+    as many tiles.
 
     Parameters
     ----------
     surface : Surface with positions, connected
     turns : 2, 4 or 6: the texture looks the same after a half, a quarter or a sixth turn
     direction : "upright" for rows that run level; a (3,) vector that u runs along, as far as it can; None for any
-    threads, progress : as in `conformal_structure`
+    threads : as in `conformal_structure`
 
-    Raises ValueError for other turns; TopologyError for a surface without positions; SolverError; Cancelled.
+    Raises ValueError for other turns, TopologyError for a surface without positions.
     """
 
     def __init__(
@@ -43,32 +43,28 @@ class TurnedTiler:
         *,
         direction: ArrayLike | str | None = UPRIGHT,
         threads: int | None = 0,
-        progress: Progress | None = None,
     ) -> None:
         if turns not in LATTICE:
             raise ValueError(f"turns is {quoted(turns)}; one of {', '.join(map(str, TURNS))} is needed")
         self._surface, self._component, self._threads = surface, only_component(surface), check_threads(threads or None)
         vector, _ = along(direction, None, self._component)
-        self._turns, self._placed = (
-            turns,
-            _native.place_cones(
-                self._component._native,
-                turns=turns,
-                price=PRICE,
-                direction=vector,
-                is_of_u=not isinstance(direction, str),
-                threads=self._threads,
-                progress=progress,
-            ),
+        self._turns, self._tiles = turns, float(max(USUAL_TILES, TILES_PER_HANDLE * self._component.genus))
+        self._maps = _native.TurnedMaps(
+            self._component._native,
+            turns=turns,
+            price=PRICE,
+            direction=vector,
+            is_of_u=not isinstance(direction, str),
+            tiles=self._tiles,
         )
 
     def tile(self, tiles: float | None = None, *, evenness: float = 0.0, progress: Progress | None = None) -> Tiling:
-        """A `Tiling` with about this number of tiles; default: one that suits the genus."""
+        """A `Tiling` with about this number of tiles; default: one that suits the genus. Raises
+        SolverError, Cancelled."""
         evenness = checked_evenness(evenness)
-        usual = max(LEAST_TILES, TILES_PER_HANDLE * self._component.genus)
-        tiles = usual if tiles is None else real_number(tiles, "tiles", positive=True)
+        tiles = self._tiles if tiles is None else real_number(tiles, "tiles", positive=True)
         uv, jumps, cones, missing = _native.turned_map(
-            self._placed, tiles=tiles, evenness=evenness, threads=self._threads, progress=progress
+            self._maps, tiles=tiles, evenness=evenness, threads=self._threads, progress=progress
         )
         lattice = np.array([[z.real, z.imag] for z in LATTICES[LATTICE[self._turns]]]).T.astype(float)
         uv = arrays.frozen(np.ascontiguousarray(uv @ lattice.T) if self._turns == 6 else uv)

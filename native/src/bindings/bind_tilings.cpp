@@ -59,22 +59,17 @@ Tiling evened(const Tiling& made, double evenness, int threads, const py::object
   return unlocked(threads, progress, [&](Execution& execution) { return tiling::evened(made, evenness, execution); });
 }
 
-turns::PlacedCones place_cones(const std::shared_ptr<mesh::Surface>& surface, int turns, double price,
-                               std::optional<std::array<double, 3>> direction, bool is_of_u, int threads,
-                               const py::object& progress) {
-  turns::ConeOptions options{turns, price, {}};
+std::unique_ptr<turns::TurnedMaps> turned_maps(const std::shared_ptr<mesh::Surface>& surface, int turns, double price,
+                                               std::optional<std::array<double, 3>> direction, bool is_of_u,
+                                               double tiles) {
+  turns::ConeOptions options{turns, price, {}, tiles};
   if (direction) options.along = {*direction, is_of_u};
-  return unlocked(threads, progress, [&](Execution& execution) {
-    turns::PlacedCones placed(surface, options, execution);
-    execution.finish();
-    return placed;
-  });
+  return std::make_unique<turns::TurnedMaps>(surface, options);
 }
 
-py::tuple turned_map(const turns::PlacedCones& placed, double tiles, double evenness, int threads,
-                     const py::object& progress) {
+py::tuple turned_map(turns::TurnedMaps& maps, double tiles, double evenness, int threads, const py::object& progress) {
   const turns::TurnedMap made =
-      unlocked(threads, progress, [&](Execution& execution) { return placed.turned_map(tiles, evenness, execution); });
+      unlocked(threads, progress, [&](Execution& execution) { return maps.turned_map(tiles, evenness, execution); });
   Eigen::Matrix<std::int64_t, Eigen::Dynamic, 4, Eigen::RowMajor> jumps(std::ssize(made.jumps), 4);
   for (Eigen::Index i = 0; i < jumps.rows(); ++i) {
     const turns::Jump& jump = made.jumps[i];
@@ -84,11 +79,10 @@ py::tuple turned_map(const turns::PlacedCones& placed, double tiles, double even
 }
 
 void bind_turned_map(py::module_& m) {
-  using turns::PlacedCones;
-  py::class_<PlacedCones>(m, "PlacedCones");
-  m.def("place_cones", &place_cones, "surface"_a, py::kw_only(), "turns"_a, "price"_a, "direction"_a, "is_of_u"_a,
-        "threads"_a, "progress"_a);
-  m.def("turned_map", &turned_map, "placed"_a, py::kw_only(), "tiles"_a, "evenness"_a, "threads"_a, "progress"_a);
+  py::class_<turns::TurnedMaps>(m, "TurnedMaps")
+      .def(py::init(&turned_maps), "surface"_a, py::kw_only(), "turns"_a, "price"_a, "direction"_a, "is_of_u"_a,
+           "tiles"_a);
+  m.def("turned_map", &turned_map, "maps"_a, py::kw_only(), "tiles"_a, "evenness"_a, "threads"_a, "progress"_a);
 }
 
 void bind_tiling(py::module_& m) {

@@ -18,12 +18,12 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kCandidates = 250, kExtrema = 80;  // that cones may be at, and of these the most where u is extreme
 constexpr int kMostMoves = 400;
-constexpr double kHandles = 0.3;  // weight of the square of what handles turn beyond whole k-th turns
-constexpr double kNear = 0.06;    // roots of the area: opposite cones of a field that are nearer vanish
-constexpr double kTiles = 400, kTilesPerHandle = 64;  // with which cones are apart
-constexpr int kAround = 12, kOthers = 60;             // candidates around a cone in a round, and elsewhere
-constexpr int kMostAround = 480;                      // around all
-constexpr double kGain = 1e-9;                        // a move lowers the cost by more
+constexpr double kHandles = 0.3;           // weight of the square of what handles turn beyond whole k-th turns
+constexpr double kNear = 0.06;             // roots of the area: opposite cones of a field that are nearer vanish
+constexpr double kApart = 0.7;             // of the distance between centres of turns: two cones, at least
+constexpr int kAround = 12, kOthers = 60;  // candidates around a cone in a round, and elsewhere
+constexpr int kMostAround = 480;           // around all
+constexpr double kGain = 1e-9;             // a move lowers the cost by more
 // Rounds: the distance of candidates from their cone, in spacings of the first ones; part of kHandles.
 struct Round {
   double reach, handles;
@@ -187,9 +187,12 @@ class Search {
       for (std::size_t i = 0; i < n_.size(); ++i) n[static_cast<Eigen::Index>(i)] = n_[i];
       const VectorXd change = 2 * sign * (Q_ * n - b_) + Q_.diagonal();
       int best = -1;
-      for (std::size_t i = 0; i < n_.size(); ++i) {
-        if (!may_be(i, sign) || (crowd(i) > 0 && n_[i] == 0)) continue;
-        if (best < 0 || change[static_cast<Eigen::Index>(i)] < change[best]) best = static_cast<int>(i);
+      for (const bool apart : {true, false}) {
+        if (best >= 0) break;
+        for (std::size_t i = 0; i < n_.size(); ++i) {
+          if (!may_be(i, sign) || (apart && crowd(i) > 0 && n_[i] == 0)) continue;
+          if (best < 0 || change[static_cast<Eigen::Index>(i)] < change[best]) best = static_cast<int>(i);
+        }
       }
       if (best < 0) throw SolverError("no cones fit this surface: it has too few vertices");
       n_[best] += sign;
@@ -211,8 +214,7 @@ class Search {
     near_.assign(places_.size(), {});
     // Centres of k-th turns in a lattice whose tiles have the area 1.
     const double between = options_.k == 2 ? 0.5 : options_.k == 4 ? std::sqrt(0.5) : 1.075;
-    const double apart =
-        std::pow(options_.apart * between, 2) * net_.whole_area / std::max(kTiles, kTilesPerHandle * net_.genus);
+    const double apart = std::pow(kApart * between, 2) * net_.whole_area / options_.tiles;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       for (std::size_t j = 0; j < places_.size(); ++j) {
         if (i != j && !is_hole(places_[i]) && !is_hole(places_[j]) &&

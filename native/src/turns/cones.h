@@ -21,8 +21,8 @@ struct ConeOptions {
   int k = 4;                   ///< the map may turn by k-th parts of a full turn
   double price = 0.0005;       ///< of a cone of one k-th turn
   std::optional<Along> along;  ///< none: any direction
-  /// Cones are this far apart, over the distance between the centres of turns of 400 tiles, or of 64 a handle.
-  double apart = 0.7;
+  /// Cones are about as far apart as centres of turns are where there are so many tiles.
+  double tiles = 400;
 };
 
 /// Finds cones with which the log scale u of the flat metric, L u = (2 pi / k) missing - defect, is near 0, and with

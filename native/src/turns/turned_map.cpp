@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "evening/evening.h"
 #include "tiling/greens/coarse_level.h"
 #include "turns/rounding.h"
 
@@ -16,12 +17,12 @@ using Eigen::VectorXcd;
 
 constexpr int kFewTriangles = 4000, kMoreTriangles = 20'000;  // of the levels on which cones are searched for
 constexpr int kCompared = 3;                                  // of the cones found on the fewer
-constexpr double kTilesCompared = 400;
-constexpr int kTries = 3;                       // of the nearest whole numbers
-constexpr int kManyTriangles = 100'000;         // from which the first one that flips none is taken
-constexpr double kFurtherApart[] = {1.3, 1.7};  // factors, where triangles are flipped
-constexpr double kHelps = 0.5;                  // of the flipped area: else no more is tried
-constexpr int kMantissa = 23;                   // of single precision, less the sign
+constexpr int kTries = 3;                                     // of the nearest whole numbers
+constexpr int kManyTriangles = 100'000;                       // from which the first one that flips none is taken
+constexpr int kMostLevels = 4;                                // of half the tiles each, for which cones are searched
+constexpr int kFurtherApart = 2;                              // levels, where triangles are flipped
+constexpr double kHelps = 0.5;                                // of the flipped area: else no more is tried
+constexpr int kMantissa = 23;                                 // of single precision, less the sign
 
 // Cones on a surface, from those of a level of it: #V.
 std::vector<int> carried(const mesh::Surface& surface, const tiling::CoarseLevel& level, const Cones& cones) {
@@ -31,30 +32,6 @@ std::vector<int> carried(const mesh::Surface& surface, const tiling::CoarseLevel
     if (cones.missing[v] != 0) missing[place_of(net, level.vertex[v])] += cones.missing[v];
   }
   return missing;
-}
-
-// The cones with the least strain among those of least cost of many starts on few triangles, then a short search on
-// more.
-std::vector<int> cones_of(const std::shared_ptr<const mesh::Surface>& surface, const ConeOptions& wanted,
-                          Execution& execution) {
-  if (surface->intrinsic()) throw TopologyError("a turned map needs positions: the surface has edge lengths alone");
-  execution.stage("cones", 0, 0.8);
-  const Execution::Within within(execution);
-  execution.stage("cones", 0, 1);
-  const tiling::CoarseLevel fine = tiling::coarse_level(surface, execution, kMoreTriangles);
-  const tiling::CoarseLevel coarse = tiling::coarse_level(fine.surface, execution, kFewTriangles);
-  std::vector<Cones> found = find_cones(*coarse.surface, wanted, execution);
-  found.resize(std::min<std::size_t>(found.size(), kCompared));
-  const Cones* best = nullptr;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Cones& cones : found) {
-    execution.report(1);
-    const PlacedCones placed(coarse.surface, wanted, cones.missing);
-    const double strain = placed.strain(kTilesCompared, evening::kUsualEvenness, execution);
-    if (best == nullptr || strain < least) least = strain, best = &cones;
-  }
-  return carried(*surface, fine,
-                 refined_cones(*fine.surface, carried(*fine.surface, coarse, *best), wanted, execution));
 }
 
 // The UVs of polygons' corners in coordinates of the lattice, exact on a grid of powers of two: turns of the lattice
@@ -116,13 +93,39 @@ std::vector<Jump> jumps_of(const mesh::Surface& surface, const Net& net, const F
 
 }  // namespace
 
-PlacedCones::PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, Execution& execution)
-    : PlacedCones(surface, options, cones_of(surface, options, execution)) {}
+// Cones on a surface, and what the maps with these have in common, whatever their tiles and evenness.
+class PlacedCones {
+ public:
+  // Frames, and the space of the maps with these cones.
+  PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, std::vector<int> missing);
+
+  struct Judged {
+    TurnedMap map;
+    std::pair<double, double> bad{std::numeric_limits<double>::infinity(), 0};  // area flipped, strain
+  };
+  // The best of the maps by the nearest whole numbers.
+  Judged best_map(double tiles, double evenness, Execution& execution) const;
+  // The energy of the map by its nearest whole numbers, as in evening/evening.h: what cones are compared by.
+  double strain(double tiles, double evenness, Execution& execution) const;
+
+ private:
+  std::vector<NearestMap::Rounded> nearest(double tiles) const;
+  VectorXcd evened(const NearestMap::Rounded& rounded, double evenness, Execution& execution) const;
+  double strain_of(const uv::UvArray& uv, double evenness, Execution& execution) const;
+  evening::Kept kept() const;
+
+  std::shared_ptr<const mesh::Surface> surface_;
+  Net net_;
+  std::vector<int> missing_;
+  Frames frames_;
+  TurnedSpace space_;
+  NearestMap nearest_;
+  Complex level_;  // the factor at which rows are level
+};
 
 PlacedCones::PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options,
                          std::vector<int> missing)
     : surface_(std::move(surface)),
-      options_(options),
       net_(*surface_),
       missing_(std::move(missing)),
       frames_(make_frames(*surface_, net_, options.k, missing_)),
@@ -191,16 +194,57 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Executi
   return best;
 }
 
-TurnedMap PlacedCones::turned_map(double tiles, double evenness, Execution& execution) const {
-  Judged best = best_map(tiles, evenness, execution);
-  const std::lock_guard lock(others_->one_at_a_time);
-  for (std::size_t i = 0; i < std::size(kFurtherApart) && best.bad.first > 0; ++i) {
-    if (i == others_->placed.size()) {
-      ConeOptions wanted = options_;
-      wanted.apart *= kFurtherApart[i];
-      others_->placed.push_back(std::make_unique<PlacedCones>(surface_, wanted, execution));
-    }
-    Judged other = others_->placed[i]->best_map(tiles, evenness, execution);
+namespace {
+
+// The cones with the least strain among those of least cost of many starts on few triangles, then a short search on
+// more.
+std::vector<int> cones_of(const std::shared_ptr<const mesh::Surface>& surface, const ConeOptions& wanted,
+                          Execution& execution) {
+  execution.stage("cones", 0, 0.8);
+  const Execution::Within within(execution);
+  execution.stage("cones", 0, 1);
+  const tiling::CoarseLevel fine = tiling::coarse_level(surface, execution, kMoreTriangles);
+  const tiling::CoarseLevel coarse = tiling::coarse_level(fine.surface, execution, kFewTriangles);
+  std::vector<Cones> found = find_cones(*coarse.surface, wanted, execution);
+  found.resize(std::min<std::size_t>(found.size(), kCompared));
+  const Cones* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Cones& cones : found) {
+    execution.report(1);
+    const PlacedCones placed(coarse.surface, wanted, cones.missing);
+    const double strain = placed.strain(wanted.tiles, evening::kUsualEvenness, execution);
+    if (best == nullptr || strain < least) least = strain, best = &cones;
+  }
+  return carried(*surface, fine,
+                 refined_cones(*fine.surface, carried(*fine.surface, coarse, *best), wanted, execution));
+}
+
+}  // namespace
+
+TurnedMaps::TurnedMaps(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options)
+    : surface_(std::move(surface)), options_(options) {
+  if (surface_->intrinsic()) throw TopologyError("a turned map needs positions: the surface has edge lengths alone");
+}
+
+TurnedMaps::~TurnedMaps() = default;
+
+const PlacedCones& TurnedMaps::placed(int level, Execution& execution) {
+  std::unique_ptr<const PlacedCones>& found = placed_[level];
+  if (!found) {
+    ConeOptions wanted = options_;
+    wanted.tiles *= std::exp2(-level);
+    found = std::make_unique<PlacedCones>(surface_, wanted, cones_of(surface_, wanted, execution));
+  }
+  return *found;
+}
+
+TurnedMap TurnedMaps::turned_map(double tiles, double evenness, Execution& execution) {
+  const std::lock_guard lock(one_at_a_time_);
+  const double times = options_.tiles / tiles;
+  const int first = std::clamp(static_cast<int>(std::lround(std::log2(times))), 0, kMostLevels);
+  PlacedCones::Judged best;
+  for (int level = first; level <= first + kFurtherApart && best.bad.first > 0; ++level) {
+    PlacedCones::Judged other = placed(level, execution).best_map(tiles, evenness, execution);
     const bool helps = other.bad.first < kHelps * best.bad.first;
     if (other.bad < best.bad) best = std::move(other);
     if (!helps) break;

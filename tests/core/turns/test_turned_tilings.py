@@ -102,17 +102,17 @@ def test_it_is_more_even_than_what_may_only_be_shifted(turns):
 
 
 @pytest.mark.parametrize("turns", [2, 4, 6])
-@pytest.mark.parametrize("mesh", ["bumps", "block", "scaffold"])
-def test_cones_are_apart_and_nothing_is_flipped(turns, mesh):
+@pytest.mark.parametrize(("mesh", "tiles"), [("bumps", 400), ("bumps", 50), ("block", 400), ("scaffold", 400)])
+def test_cones_are_apart_and_nothing_is_flipped(turns, mesh, tiles):
     """By most of the distance between the centres of turns, since two that are nearer would lie at one of them."""
     meshes = {"bumps": bumps, "block": block_of_three_holes, "scaffold": lambda: families.scaffold(2)}
     surface = surface_of(meshes[mesh]())
-    made = tiling(surface, turns, tiles=400.0)
+    made = tiling(surface, turns, tiles=float(tiles))
     assert not made.quality.flipped.any()
     points = surface.vertices[made.cones]
     between = np.linalg.norm(points[:, None] - points, axis=2)[np.triu_indices(len(points), 1)]
     centres = {2: 0.5, 4: np.sqrt(0.5), 6: np.sqrt(2 / np.sqrt(3))}[turns]
-    assert between.min(initial=np.inf) > 0.69 * centres * np.sqrt(surface.area / 400)
+    assert between.min(initial=np.inf) > 0.69 * centres * np.sqrt(surface.area / tiles)
 
 
 def test_a_flat_disk_and_a_straight_tube_have_no_cones():
@@ -141,12 +141,12 @@ def test_bits_do_not_depend_on_threads():
     assert np.array_equal(made[0], made[1]) and np.array_equal(made[0], made[2])
 
 
-def test_another_number_of_tiles_searches_for_no_cones():
+def test_about_as_many_tiles_have_the_same_cones():
     structure, stages = automatic_structure(surface_of(families.geodesic_sphere(6))), []
     first = structure.tile(100, turns=4, evenness=0.5)
-    second = structure.tile(200, turns=4, evenness=0.5, progress=lambda _fraction, stage: stages.append(stage))
+    second = structure.tile(120, turns=4, evenness=0.5, progress=lambda _fraction, stage: stages.append(stage))
     assert np.array_equal(first.cones, second.cones) and stages and "cones" not in stages
-    assert second.quality.median_density == pytest.approx(2 * first.quality.median_density, rel=0.35)
+    assert second.quality.median_density == pytest.approx(1.2 * first.quality.median_density, rel=0.35)
 
 
 @pytest.mark.parametrize("turns", [2, 4, 6])
