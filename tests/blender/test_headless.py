@@ -288,6 +288,15 @@ def test_textures_that_are_not_there(options, word, torus_file):
     assert word in refusal(torus_file, *options)
 
 
+@pytest.mark.parametrize(("options", "turns"), [((), 1), (("--texture", "bricks"), 2), (("--turns", "quarter"), 4)])
+def test_turns_of_the_command_line(options, turns, torus_file, tmp_path):
+    report = tmp_path / "report.json"
+    done = headless(torus_file, "--report", report, "--seamless", *options)
+    assert done.returncode == 0, done.stderr
+    (entry,) = json.loads(report.read_text())["objects"]
+    assert entry["asked"]["turns"] == turns == entry["components"][0]["tiling"]["turns"]
+
+
 def test_tiles_are_over_all_objects_of_a_file(tmp_path):
     for scale in (1.0, 2.0):
         mesh_object(f"Limb {scale}", *limb_arrays()).scale = (scale, scale, scale)
@@ -307,6 +316,7 @@ def test_tiles_are_over_all_objects_of_a_file(tmp_path):
         (("--seamless", "--pole-group", "Hidden"), "no vertex group 'Hidden'"),
         (("--seamless", "--boundary", "double_cover"), "--boundary"),
         (("--boundary", "free"), "--boundary"),
+        (("--seamless", "--turns", "half", "--poles", "4"), "a map with half turns has no choice of Poles"),
     ],
 )
 def test_options_of_a_tiling_that_cannot_be(options, word, torus_file):
