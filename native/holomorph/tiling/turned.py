@@ -63,14 +63,18 @@ class TurnedTiler:
         SolverError, Cancelled."""
         evenness = checked_evenness(evenness)
         tiles = self._tiles if tiles is None else real_number(tiles, "tiles", positive=True)
-        uv, jumps, cones, missing = _native.turned_map(
+        uv, before, jumps, cones, missing = _native.turned_map(
             self._maps, tiles=tiles, evenness=evenness, threads=self._threads, progress=progress
         )
         lattice = np.array([[z.real, z.imag] for z in LATTICES[LATTICE[self._turns]]]).T.astype(float)
-        uv = arrays.frozen(np.ascontiguousarray(uv @ lattice.T) if self._turns == 6 else uv)
+        if self._turns == 6:
+            uv, before = (np.ascontiguousarray(of @ lattice.T) for of in (uv, before))
+        quality = Quality.of(self._component._native, uv, self._threads)
+        if evenness > 0:
+            quality = quality.evened_from(Quality.of(self._component._native, before, self._threads), evenness)
         edges = self._component._native.edges
         return Tiling(
-            uv=uv,
+            uv=arrays.frozen(uv),
             periods=arrays.frozen(np.empty((0, 2), np.int64)),
             poles=arrays.frozen(np.empty(0, np.int64)),
             residues=arrays.frozen(np.empty(0, complex)),
@@ -81,7 +85,7 @@ class TurnedTiler:
             optimal_size_range=1.0,
             rounding=Rounding(2 * len(missing), 1, 0, 1.0),
             tiles=tiles,
-            quality=Quality.of(self._component._native, uv, self._threads),
+            quality=quality,
             seams=self._of_surface(edges[jumps[:, 0]]),
             lattice=arrays.frozen(lattice),
             turns=self._turns,

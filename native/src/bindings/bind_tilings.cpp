@@ -75,7 +75,7 @@ py::tuple turned_map(turns::TurnedMaps& maps, double tiles, double evenness, int
     const turns::Jump& jump = made.jumps[i];
     jumps.row(i) << jump.edge, jump.turn, jump.translation[0], jump.translation[1];
   }
-  return py::make_tuple(copy(made.uv), copy(jumps), copy(made.cones), copy(made.missing));
+  return py::make_tuple(copy(made.uv), copy(made.before), copy(jumps), copy(made.cones), copy(made.missing));
 }
 
 void bind_turned_map(py::module_& m) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "base/errors.h"
@@ -21,7 +22,7 @@ constexpr int kTries = 3;                                     // of the nearest 
 constexpr int kManyTriangles = 100'000;                       // from which the first one that flips none is taken
 constexpr int kMostLevels = 4;                                // of half the tiles each, for which cones are searched
 constexpr int kFurtherApart = 2;                              // levels, where triangles are flipped
-constexpr double kHelps = 0.5;                                // of the flipped area: else no more is tried
+constexpr double kHelps = 0.5;                                // of the wrong area: else no more is tried
 constexpr int kMantissa = 23;                                 // of single precision, less the sign
 
 // Cones on a surface, from those of a level of it: #V.
@@ -66,13 +67,31 @@ uv::UvArray in_plane(const TurnLattice& lattice, const uv::UvArray& coordinates)
   return result;
 }
 
-double flipped_area(const mesh::Surface& surface, const Net& net, const uv::UvArray& uv) {
+// The area of triangles that are flipped, or around vertices at which the map has not the angle that it is to have:
+// evening may turn triangles back at a cone by turning a neighbour of it into a branch point.
+double wrong_area(const mesh::Surface& surface, const Net& net, const uv::UvArray& in_plane, int k,
+                  const std::vector<int>& missing) {
+  std::vector<double> turned(net.vertex_count(), 0.0);  // full turns
+  std::vector<char> is_flipped(net.triangle_count(), 0);
+  for (int side = 0; side < net.side_count(); ++side) {
+    if (!(net.area[side / 3] > 0)) continue;
+    const auto at = [&](int corner) {
+      const auto row = in_plane.row(surface.triangle_corners[side / 3][corner % 3]);
+      return Complex(row[0], row[1]);
+    };
+    const int corner = side % 3;
+    const Complex to_next = at(corner + 1) - at(corner), to_last = at(corner + 2) - at(corner);
+    const Complex ratio = std::conj(to_next) * to_last;
+    if (!(ratio.imag() > 0)) is_flipped[side / 3] = 1;
+    turned[net.tail[side]] += std::arg(ratio) / (2 * std::numbers::pi);
+  }
   double sum = 0;
   for (int t = 0; t < net.triangle_count(); ++t) {
-    const auto& corners = surface.triangle_corners[t];
-    const Eigen::RowVector2d first = uv.row(corners[1]) - uv.row(corners[0]),
-                             last = uv.row(corners[2]) - uv.row(corners[0]);
-    if (!(first[0] * last[1] - first[1] * last[0] > 0)) sum += net.area[t];
+    const bool is_wrong = std::ranges::any_of(surface.triangles[t], [&](int v) {
+      return net.hole[v] < 0 &&
+             std::abs(turned[v] - (1 - static_cast<double>(missing[v]) / k)) > 0.75;  // it is off by whole turns
+    });
+    if (is_wrong || is_flipped[t]) sum += net.area[t];
   }
   return sum;
 }
@@ -101,7 +120,7 @@ class PlacedCones {
 
   struct Judged {
     TurnedMap map;
-    std::pair<double, double> bad{std::numeric_limits<double>::infinity(), 0};  // area flipped, strain
+    std::pair<double, double> bad{std::numeric_limits<double>::infinity(), 0};  // wrong area, strain
   };
   // The best of the maps by the nearest whole numbers.
   Judged best_map(double tiles, double evenness, Execution& execution) const;
@@ -110,8 +129,8 @@ class PlacedCones {
 
  private:
   std::vector<NearestMap::Rounded> nearest(double tiles) const;
-  VectorXcd evened(const NearestMap::Rounded& rounded, double evenness, Execution& execution) const;
-  double strain_of(const uv::UvArray& uv, double evenness, Execution& execution) const;
+  uv::UvArray coordinates(const VectorXcd& y, const NearestMap::Rounded& rounded) const;
+  VectorXcd evened(VectorXcd y, const NearestMap::Rounded& rounded, double evenness, Execution& execution) const;
   evening::Kept kept() const;
 
   std::shared_ptr<const mesh::Surface> surface_;
@@ -147,10 +166,14 @@ evening::Kept PlacedCones::kept() const {
   return kept;
 }
 
-VectorXcd PlacedCones::evened(const NearestMap::Rounded& rounded, double evenness, Execution& execution) const {
-  VectorXcd y = nearest_.functions(rounded);
+uv::UvArray PlacedCones::coordinates(const VectorXcd& y, const NearestMap::Rounded& rounded) const {
+  return corner_uv(*surface_, net_, space_, y, rounded.z);
+}
+
+VectorXcd PlacedCones::evened(VectorXcd y, const NearestMap::Rounded& rounded, double evenness,
+                              Execution& execution) const {
   if (evenness == 0) return y;
-  const uv::UvArray uv = in_plane(space_.lattice, corner_uv(*surface_, net_, space_, y, rounded.z));
+  const uv::UvArray uv = in_plane(space_.lattice, coordinates(y, rounded));
   const uv::UvArray delta = evening::evened(*surface_, uv, kept(), evenness, execution);
   for (int v = 0; v < surface_->vertex_count; ++v) y[v] += Complex(delta(v, 0), delta(v, 1));
   return y;
@@ -162,12 +185,9 @@ std::vector<NearestMap::Rounded> PlacedCones::nearest(double tiles) const {
 
 double PlacedCones::strain(double tiles, double evenness, Execution& execution) const {
   const NearestMap::Rounded rounded = nearest(tiles)[0];
-  const VectorXcd y = evened(rounded, evenness, execution);
-  return strain_of(corner_uv(*surface_, net_, space_, y, rounded.z), evenness, execution);
-}
-
-double PlacedCones::strain_of(const uv::UvArray& uv, double evenness, Execution& execution) const {
-  return evening::strain(*surface_, in_plane(space_.lattice, uv), kept(), evenness, execution);
+  const VectorXcd y = evened(nearest_.functions(rounded), rounded, evenness, execution);
+  const uv::UvArray laid = in_plane(space_.lattice, coordinates(y, rounded));
+  return evening::strain(*surface_, laid, kept(), evenness, execution);
 }
 
 PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Execution& execution) const {
@@ -180,11 +200,14 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Executi
   const bool compares = net_.triangle_count() < kManyTriangles;
   for (int i = 0; i < tries && (compares || best.bad.first > 0); ++i) {
     execution.stage("evening", 0.2 + 0.8 * i / tries, 0.2 + 0.8 * (i + 1) / tries);
-    const VectorXcd y = evened(nearest[i], evenness, execution);
-    uv::UvArray uv = corner_uv(*surface_, net_, space_, y, nearest[i].z);
-    const std::pair<double, double> bad{flipped_area(*surface_, net_, uv), strain_of(uv, evenness, execution)};
+    const VectorXcd y = nearest_.functions(nearest[i]);
+    uv::UvArray uv = coordinates(evened(y, nearest[i], evenness, execution), nearest[i]);
+    const uv::UvArray laid = in_plane(space_.lattice, uv);
+    const std::pair<double, double> bad{wrong_area(*surface_, net_, laid, space_.lattice.k, missing_),
+                                        evening::strain(*surface_, laid, kept(), evenness, execution)};
     if (!(bad < best.bad)) continue;
-    best = {{std::move(uv), jumps_of(*surface_, net_, frames_, space_, nearest[i].z), {}, {}}, bad};
+    const std::vector<Jump> jumps = jumps_of(*surface_, net_, frames_, space_, nearest[i].z);
+    best = {{std::move(uv), coordinates(y, nearest[i]), jumps, {}, {}}, bad};
   }
   for (int v = 0; v < surface_->vertex_count; ++v) {
     if (missing_[v] == 0 || net_.hole[v] >= 0) continue;

@@ -23,6 +23,7 @@ struct Jump {
 
 struct TurnedMap {
   uv::UvArray uv;            ///< #C x 2, in coordinates of the lattice
+  uv::UvArray before;        ///< the same before it was evened
   std::vector<Jump> jumps;   ///< of the edges across which the UVs jump
   std::vector<int> cones;    ///< vertices
   std::vector<int> missing;  ///< of each cone: k-th turns that are missing around it

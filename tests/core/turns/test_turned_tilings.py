@@ -45,6 +45,13 @@ def block_of_three_holes():
     return families.block_with_holes(3, refine=3, jitter=0.2)
 
 
+def angles_around(surface, uv):
+    """(#V,) in the map, in full turns."""
+    at = (uv @ [1, 1j])[surface._native.triangle_corners]
+    corners = np.angle((np.roll(at, 1, axis=1) - at) / (np.roll(at, -1, axis=1) - at))
+    return np.bincount(surface.triangles.ravel(), corners.ravel()) / (2 * np.pi)
+
+
 def both_sides(surface, made):
     """(((#E, 2) complex UVs at the ends of inner edges, in the triangle on the left and on the right), (#E,) seam)."""
     native = surface._native
@@ -99,6 +106,7 @@ def test_it_is_more_even_than_what_may_only_be_shifted(turns):
     assert turned.quality.size_range < shifted.quality.size_range
     assert turned.quality.mean_angle < shifted.quality.mean_angle and turned.cost < 0.8 * shifted.cost
     assert not turned.quality.flipped.any()
+    assert 0 < turned.quality.unseen_angle <= shifted.quality.unseen_angle
 
 
 @pytest.mark.parametrize("turns", [2, 4, 6])
@@ -109,6 +117,9 @@ def test_cones_are_apart_and_nothing_is_flipped(turns, mesh, tiles):
     surface = surface_of(meshes[mesh]())
     made = tiling(surface, turns, tiles=float(tiles))
     assert not made.quality.flipped.any()
+    angle = np.ones(len(surface.vertices))
+    angle[made.cones] = made.cone_angles
+    assert np.allclose(angles_around(surface, made.uv), angle, atol=1e-6)
     points = surface.vertices[made.cones]
     between = np.linalg.norm(points[:, None] - points, axis=2)[np.triu_indices(len(points), 1)]
     centres = {2: 0.5, 4: np.sqrt(0.5), 6: np.sqrt(2 / np.sqrt(3))}[turns]
