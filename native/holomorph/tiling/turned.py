@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import numbers
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _native
+from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import Progress
 from ..core.value import quoted
@@ -19,6 +21,7 @@ from .tilings import LATTICES, UPRIGHT, Rounding, Tiling, along
 TURNS = (1, 2, 4, 6)
 LATTICE = {2: "square", 4: "square", 6: "hex"}  # of which a turn by this part of a full one is a symmetry
 PRICE = 5e-4  # of a cone: what it is to take off the mean square of the logarithm of the scale
+MOST_LOST = 0.5  # part of the area: nothing is left to look at
 USUAL_TILES, TILES_PER_HANDLE = 400, 64  # by default, at least
 
 
@@ -33,7 +36,7 @@ class TurnedTiler:
     direction : "upright" for rows that run level; a (3,) vector that u runs along, as far as it can; None for any
     threads : as in `conformal_structure`
 
-    Raises ValueError for other turns, TopologyError for a surface without positions.
+    Raises TopologyError for a surface without positions.
     """
 
     def __init__(
@@ -44,8 +47,6 @@ class TurnedTiler:
         direction: ArrayLike | str | None = UPRIGHT,
         threads: int | None = 0,
     ) -> None:
-        if turns not in LATTICE:
-            raise ValueError(f"turns is {quoted(turns)}; one of {', '.join(map(str, TURNS))} is needed")
         self._surface, self._component, self._threads = surface, only_component(surface), check_threads(threads or None)
         vector, _ = along(direction, None, self._component)
         self._turns, self._tiles = turns, float(max(USUAL_TILES, TILES_PER_HANDLE * self._component.genus))
@@ -60,7 +61,7 @@ class TurnedTiler:
 
     def tile(self, tiles: float | None = None, *, evenness: float = 0.0, progress: Progress | None = None) -> Tiling:
         """A `Tiling` with about this number of tiles; default: one that suits the genus. Raises
-        SolverError, Cancelled."""
+        TopologyError where most of the surface would collapse; SolverError, Cancelled."""
         evenness = checked_evenness(evenness)
         tiles = self._tiles if tiles is None else real_number(tiles, "tiles", positive=True)
         uv, before, jumps, cones, missing = _native.turned_map(
@@ -72,6 +73,11 @@ class TurnedTiler:
         quality = Quality.of(self._component._native, uv, self._threads)
         if evenness > 0:
             quality = quality.evened_from(Quality.of(self._component._native, before, self._threads), evenness)
+        if quality.lost_part > MOST_LOST:
+            raise TopologyError(
+                f"with {tiles:.4g} tiles that turn {100 * quality.lost_part:.3g} % of this surface would be "
+                "flipped or collapse: take more tiles, or turns=1"
+            )
         edges = self._component._native.edges
         return Tiling(
             uv=arrays.frozen(uv),
@@ -97,6 +103,13 @@ class TurnedTiler:
     def _of_surface(self, vertices):
         same = self._component is self._surface
         return arrays.frozen(vertices if same else self._component.vertex_index[vertices])
+
+
+def checked_turns(turns: Any) -> int:
+    """Raises ValueError for anything but 1, 2, 4 or 6."""
+    if isinstance(turns, bool) or not isinstance(turns, numbers.Integral) or turns not in TURNS:
+        raise ValueError(f"turns is {quoted(turns)}; one of {', '.join(map(str, TURNS))} is needed")
+    return int(turns)
 
 
 def check_fits(options: dict[str, Any]) -> None:

@@ -23,6 +23,8 @@ constexpr double kNear = 0.06;             // roots of the area: opposite cones 
 constexpr double kApart = 0.7;             // of the distance between centres of turns: two cones, at least
 constexpr int kAround = 12, kOthers = 60;  // candidates around a cone in a round, and elsewhere
 constexpr int kMostAround = 480;           // around all
+constexpr int kMovesAtOnce = 16;           // between two looks at whether the search is cancelled
+constexpr std::size_t kSolvedAtOnce = 64;  // candidates
 constexpr double kGain = 1e-9;             // a move lowers the cost by more
 // Rounds: the distance of candidates from their cone, in spacings of the first ones; part of kHandles.
 struct Round {
@@ -48,8 +50,9 @@ double price_of(int n) {
 
 class Search {
  public:
-  Search(const mesh::Surface& surface, const Net& net, const ConeOptions& options)
-      : points_(surface.polygons.vertices),
+  Search(const mesh::Surface& surface, const Net& net, const ConeOptions& options, Execution& execution)
+      : execution_(execution),
+        points_(surface.polygons.vertices),
         net_(net),
         options_(options),
         unit_(2 * kPi / options.k),
@@ -77,6 +80,11 @@ class Search {
     least_ = -options.k;
     spacing_ = std::sqrt(net.whole_area / kCandidates);
     find_spread();
+  }
+
+  void report(double part) {
+    part_ = part;
+    execution_.report(part);
   }
 
   Cones from_field(double level, const Along& along) {
@@ -249,13 +257,16 @@ class Search {
     for (const int place : places_) {
       if (response_[place].size() == 0) fresh.push_back(place);
     }
-    if (fresh.empty()) return;
-    MatrixXd B = MatrixXd::Zero(net_.vertex_count(), std::ssize(fresh));
-    for (std::size_t i = 0; i < fresh.size(); ++i) B(fresh[i], static_cast<Eigen::Index>(i)) = unit_;
-    const MatrixXd G = laplace_.solve(B), response = laplace_.solve(weights_.asDiagonal() * G), flux = fluxes(G);
-    for (std::size_t i = 0; i < fresh.size(); ++i) {
-      response_[fresh[i]] = unit_ * response.col(static_cast<Eigen::Index>(i));
-      flux_of_[fresh[i]] = flux.col(static_cast<Eigen::Index>(i));
+    for (std::size_t first = 0; first < fresh.size(); first += kSolvedAtOnce) {
+      execution_.report(part_);
+      const std::size_t count = std::min(kSolvedAtOnce, fresh.size() - first);
+      MatrixXd B = MatrixXd::Zero(net_.vertex_count(), static_cast<Eigen::Index>(count));
+      for (std::size_t i = 0; i < count; ++i) B(fresh[first + i], static_cast<Eigen::Index>(i)) = unit_;
+      const MatrixXd G = laplace_.solve(B), response = laplace_.solve(weights_.asDiagonal() * G), flux = fluxes(G);
+      for (std::size_t i = 0; i < count; ++i) {
+        response_[fresh[first + i]] = unit_ * response.col(static_cast<Eigen::Index>(i));
+        flux_of_[fresh[first + i]] = flux.col(static_cast<Eigen::Index>(i));
+      }
     }
   }
 
@@ -279,6 +290,7 @@ class Search {
     VectorXd n(count), r(count), up(count), down(count);
     std::vector<int> crowds(places_.size());
     for (int move = 0; move < kMostMoves; ++move) {
+      if (move % kMovesAtOnce == 0) execution_.report(part_);
       for (Eigen::Index i = 0; i < count; ++i) {
         n[i] = n_[i];
         crowds[i] = crowd(i);
@@ -367,6 +379,8 @@ class Search {
     }
   }
 
+  Execution& execution_;
+  double part_ = 0;  // of the work that is done
   const std::vector<Point>& points_;
   const Net& net_;
   const ConeOptions options_;
@@ -390,10 +404,10 @@ class Search {
 
 std::vector<Cones> find_cones(const mesh::Surface& surface, const ConeOptions& options, Execution& execution) {
   const Net net(surface);
-  Search search(surface, net, options);
+  Search search(surface, net, options, execution);
   std::vector<Cones> found;
   const double starts = std::size(kSeeds) + (options.along ? std::size(kLevels) : 0);
-  const auto report = [&] { execution.report(static_cast<double>(found.size()) / starts); };
+  const auto report = [&] { search.report(static_cast<double>(found.size()) / starts); };
   report();
   if (options.along) {
     for (const double level : kLevels) {
@@ -413,7 +427,7 @@ Cones refined_cones(const mesh::Surface& surface, const std::vector<int>& missin
                     Execution& execution) {
   execution.report(0);
   const Net net(surface);
-  return Search(surface, net, options).from_level(missing);
+  return Search(surface, net, options, execution).from_level(missing);
 }
 
 std::vector<std::vector<int>> dual_loops(const Net& net) {

@@ -177,6 +177,9 @@ def test_rows_run_as_asked(turns, direction, unit):
     ("options", "words"),
     [
         ({"turns": 3}, "turns is 3; one of 1, 2, 4, 6"),
+        ({"turns": 4.0}, "turns is 4.0; one of 1, 2, 4, 6"),
+        ({"turns": [4]}, "turns is"),
+        ({"turns": True}, "turns is True"),
         ({"turns": 4, "poles": 6}, "poles is 6; a tiling that turns has no such choice"),
         ({"turns": 4, "poles": np.array([3, 5])}, "poles is"),
         ({"turns": 4, "lattice": "brick"}, "lattice is 'brick'"),
@@ -197,6 +200,32 @@ def test_a_surface_without_positions_is_refused():
     intrinsic = Surface.from_edge_lengths(torus.triangles, lengths)
     with pytest.raises(TopologyError, match="needs positions"):
         automatic_structure(intrinsic).tile(turns=4)
+
+
+def test_a_surface_that_would_collapse_is_refused():
+    """A tube longer by far than a tile is wide, with few tiles: no whole one fits around it."""
+    tube = families.cylinder(4, 900)
+    long = surface_of(replace(tube, vertices=tube.vertices * [1, 1, 300]))
+    with pytest.raises(TopologyError, match="take more tiles, or turns=1"):
+        tiling(long, 4, tiles=10.0)
+    assert tiling(long, 4, tiles=4000.0).quality.lost_part < 0.01
+
+
+def torus_with_a_doublet():
+    """Quads, one of them cut in two along a bent line, so that two triangles have the same vertices."""
+    mesh = families.torus(90, 60)
+    *quads, (a, b, c, d) = mesh.faces
+    bend = len(mesh.vertices)
+    vertices = np.vstack([mesh.vertices, 1.03 * mesh.vertices[a] - 0.03 * mesh.vertices[c]])
+    return families.polygons(vertices, [*quads, [a, b, c, bend], [a, bend, c, d]])
+
+
+def test_cones_are_searched_for_on_levels_where_triangles_have_the_same_vertices():
+    """The search on all triangles of a model of 64,000 took three minutes."""
+    stages = []
+    structure = automatic_structure(surface_of(torus_with_a_doublet()))
+    structure.tile(turns=4, progress=lambda _fraction, stage: stages.append(stage))
+    assert "edge collapses" in stages
 
 
 def test_it_can_be_cancelled():

@@ -26,6 +26,7 @@ std::vector<int> inverse(const std::vector<int>& order) {
 
 // Renumbers the vertices of a surface in a given order. Triangles begin with their lowest vertex and are sorted, so
 // that their order does not depend on the surface's either.
+// @throws InvalidMesh where two triangles of its polygons have the same vertices
 mesh::Surface renumbered(const mesh::Surface& surface, const std::vector<int>& order, Execution& execution) {
   const std::vector<int> place = inverse(order);
   std::vector<std::array<double, 3>> vertices;
@@ -40,14 +41,14 @@ mesh::Surface renumbered(const mesh::Surface& surface, const std::vector<int>& o
   return mesh::make_surface(progressive::triangle_polygons(std::move(vertices), triangles), execution);
 }
 
-CoarseLevel level_of(const mesh::Surface& surface, const std::vector<int>& order, int triangles, Execution& execution) {
-  auto all = std::make_shared<mesh::Surface>(renumbered(surface, order, execution));
-  if (static_cast<int>(all->triangles.size()) <= triangles) return {std::move(all), order, inverse(order)};
+CoarseLevel level_of(const std::shared_ptr<const mesh::Surface>& all, const std::vector<int>& order, int triangles,
+                     Execution& execution) {
+  if (static_cast<int>(all->triangles.size()) <= triangles) return {all, order, inverse(order)};
   const Execution::Within within(execution);
   const auto levels = progressive::progressive_mesh(*all, progressive::Order::quadric, execution);
   const int splits = progressive::split_count(levels, triangles);
   auto level = std::make_shared<mesh::Surface>(mesh::make_surface(progressive::level(levels, splits), execution));
-  std::vector<int> vertex, collapsed(surface.vertex_count);
+  std::vector<int> vertex, collapsed(all->vertex_count);
   for (int v = 0; v < level->vertex_count; ++v) vertex.push_back(order[levels.vertex_index[v]]);
   const std::vector<int> map = progressive::vertex_map(levels, splits);
   // vertex_index leads from the progressive mesh to `all`, `order` from there to the surface.
@@ -75,9 +76,17 @@ std::vector<std::vector<int>> large_polygons(const mesh::Surface& surface, const
 
 CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution, int triangles) {
   if (surface->intrinsic()) return the_surface_itself(surface);
+  // Vertices in an order of space, so that the level does not depend on the order of the mesh's elements.
+  std::vector<int> order = mesh::spatial_order(surface->polygons.vertices);
+  std::shared_ptr<const mesh::Surface> all;
   try {
-    // Vertices in an order of space, so that the level does not depend on the order of the mesh's elements.
-    CoarseLevel level = level_of(*surface, mesh::spatial_order(surface->polygons.vertices), triangles, execution);
+    all = std::make_shared<const mesh::Surface>(renumbered(*surface, order, execution));
+  } catch (const InvalidMesh&) {  // it keeps its order
+    all = surface;
+    std::iota(order.begin(), order.end(), 0);
+  }
+  try {
+    CoarseLevel level = level_of(all, order, triangles, execution);
     level.large_polygons = large_polygons(*surface, level.vertex);
     return level;
   } catch (const InvalidMesh&) {  // edges with the same ends in any triangulation of its polygons: it has no levels
