@@ -10,6 +10,7 @@
 namespace holomorph::bindings {
 
 void bind_surfaces(pybind11::module_& m);
+void bind_progressive_meshes(pybind11::module_& m);
 void bind_structures(pybind11::module_& m);
 void bind_maps(pybind11::module_& m);
 void bind_tilings(pybind11::module_& m);

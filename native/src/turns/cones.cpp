@@ -7,6 +7,9 @@
 #include <random>
 #include <tuple>
 
+#include "base/errors.h"
+#include "turns/scale_form.h"
+
 namespace holomorph::turns {
 namespace {
 
@@ -24,7 +27,6 @@ constexpr double kApart = 0.7;             // of the distance between centres of
 constexpr int kAround = 12, kOthers = 60;  // candidates around a cone in a round, and elsewhere
 constexpr int kMostAround = 480;           // around all
 constexpr int kMovesAtOnce = 16;           // between two looks at whether the search is cancelled
-constexpr std::size_t kSolvedAtOnce = 64;  // candidates
 constexpr double kGain = 1e-9;             // a move lowers the cost by more
 // Rounds: the distance of candidates from their cone, in spacings of the first ones; part of kHandles.
 struct Round {
@@ -51,31 +53,7 @@ double price_of(int n) {
 class Search {
  public:
   Search(const mesh::Surface& surface, const Net& net, const ConeOptions& options, Execution& execution)
-      : execution_(execution),
-        points_(surface.polygons.vertices),
-        net_(net),
-        options_(options),
-        unit_(2 * kPi / options.k),
-        laplace_(net),
-        loops_(dual_loops(net)) {
-    weights_ = VectorXd(net.vertex_count());
-    for (int v = 0; v < net.vertex_count(); ++v) weights_[v] = net.vertex_area[v] / net.whole_area;
-    VectorXd defect = VectorXd::Zero(net.vertex_count());
-    double sum = 0;
-    for (int v = 0; v < net.vertex_count(); ++v) {
-      if (net.first[v] < 0) continue;
-      defect[place_of(net, v)] += net.defect[v] + (net.hole[v] == v ? 2 * kPi : 0);
-      sum += net.defect[v] + (net.hole[v] == v ? 2 * kPi : 0);
-    }
-    total_ = static_cast<int>(std::lround(options.k * sum / (2 * kPi)));
-    u0_ = laplace_.solve(-defect);
-    response0_ = laplace_.solve(weights_.asDiagonal() * u0_).col(0);
-    response_.resize(net.vertex_count());
-    flux_of_.resize(net.vertex_count());
-    turning_ = fluxes(u0_).col(0);
-    for (std::size_t l = 0; l < loops_.size(); ++l) {
-      for (const int side : loops_[l]) turning_[static_cast<Eigen::Index>(l)] += net_.transport[side];
-    }
+      : execution_(execution), points_(surface.polygons.vertices), net_(net), options_(options), form_(net, options.k) {
     most_ = options.k == 1 ? 0 : options.k == 2 ? 1 : 2;
     least_ = -options.k;
     spacing_ = std::sqrt(net.whole_area / kCandidates);
@@ -121,18 +99,18 @@ class Search {
 
   // Farthest points, and the vertices where u without cones is extreme: the tips.
   void find_spread() {
+    const VectorXd& u0 = form_.without_cones();
     std::vector<int> extreme;
     std::vector<double> highest(net_.vertex_count(), -kInfinite), lowest(net_.vertex_count(), kInfinite);
     for (int side = 0; side < net_.side_count(); ++side) {
-      const double value = u0_(net_.head[side], 0);
+      const double value = u0[net_.head[side]];
       highest[net_.tail[side]] = std::max(highest[net_.tail[side]], value);
       lowest[net_.tail[side]] = std::min(lowest[net_.tail[side]], value);
     }
     for (int v = 0; v < net_.vertex_count(); ++v) {
-      if (is_place(v) && (u0_(v, 0) >= highest[v] || u0_(v, 0) <= lowest[v])) extreme.push_back(v);
+      if (is_place(v) && (u0[v] >= highest[v] || u0[v] <= lowest[v])) extreme.push_back(v);
     }
-    std::stable_sort(extreme.begin(), extreme.end(),
-                     [&](int a, int b) { return std::abs(u0_(a, 0)) > std::abs(u0_(b, 0)); });
+    std::stable_sort(extreme.begin(), extreme.end(), [&](int a, int b) { return std::abs(u0[a]) > std::abs(u0[b]); });
     if (extreme.size() > kExtrema) extreme.resize(kExtrema);
     spread_ = std::move(extreme);
     for (int v = 0; v < net_.vertex_count(); ++v) {
@@ -180,7 +158,7 @@ class Search {
   void begin(std::vector<int> candidates, const std::vector<int>* missing) {
     set(std::move(candidates));
     n_.assign(places_.size(), 0);
-    int left = total_;
+    int left = form_.total();
     for (std::size_t i = 0; missing && i < places_.size(); ++i) {
       const int n = (*missing)[places_[i]];
       if (n == 0) continue;
@@ -193,7 +171,7 @@ class Search {
     for (; left != 0; left -= left > 0 ? 1 : -1) {
       const int sign = left > 0 ? 1 : -1;
       for (std::size_t i = 0; i < n_.size(); ++i) n[static_cast<Eigen::Index>(i)] = n_[i];
-      const VectorXd change = 2 * sign * (Q_ * n - b_) + Q_.diagonal();
+      const VectorXd change = 2 * sign * (form_.Q() * n - form_.b()) + form_.Q().diagonal();
       int best = -1;
       for (const bool apart : {true, false}) {
         if (best >= 0) break;
@@ -237,47 +215,7 @@ class Search {
     candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
     places_ = std::move(candidates);
     find_near();
-    const auto count = static_cast<Eigen::Index>(places_.size());
-    respond();
-    Q_.resize(count, count);
-    b_.resize(count);
-    flux_.resize(std::ssize(loops_), count);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const VectorXd& column = response_[places_[j]];
-      for (Eigen::Index i = 0; i < count; ++i) Q_(i, j) = column[places_[i]];
-      b_[j] = -unit_ * response0_[places_[j]];
-      flux_.col(j) = flux_of_[places_[j]];
-    }
-    Q_ = (0.5 * (Q_ + Q_.transpose())).eval();
-  }
-
-  // Finds the responses to the candidates that are new.
-  void respond() {
-    std::vector<int> fresh;
-    for (const int place : places_) {
-      if (response_[place].size() == 0) fresh.push_back(place);
-    }
-    for (std::size_t first = 0; first < fresh.size(); first += kSolvedAtOnce) {
-      execution_.report(part_);
-      const std::size_t count = std::min(kSolvedAtOnce, fresh.size() - first);
-      MatrixXd B = MatrixXd::Zero(net_.vertex_count(), static_cast<Eigen::Index>(count));
-      for (std::size_t i = 0; i < count; ++i) B(fresh[first + i], static_cast<Eigen::Index>(i)) = unit_;
-      const MatrixXd G = laplace_.solve(B), response = laplace_.solve(weights_.asDiagonal() * G), flux = fluxes(G);
-      for (std::size_t i = 0; i < count; ++i) {
-        response_[fresh[first + i]] = unit_ * response.col(static_cast<Eigen::Index>(i));
-        flux_of_[fresh[first + i]] = flux.col(static_cast<Eigen::Index>(i));
-      }
-    }
-  }
-
-  MatrixXd fluxes(const MatrixXd& functions) const {
-    MatrixXd result = MatrixXd::Zero(static_cast<Eigen::Index>(loops_.size()), functions.cols());
-    for (std::size_t l = 0; l < loops_.size(); ++l) {
-      for (const int side : loops_[l])
-        result.row(static_cast<Eigen::Index>(l)) +=
-            net_.weight[side] * (functions.row(net_.head[side]) - functions.row(net_.tail[side]));
-    }
-    return result;
+    form_.take(places_, [&] { execution_.report(part_); });
   }
 
   // Unit moves n_i + 1, n_j - 1, and jumps of a whole cone, the best of all while it lowers the cost.
@@ -285,7 +223,7 @@ class Search {
     const double kappa = kHandles * handles_part;
     const double price = options_.price * price_part;
     const auto count = static_cast<Eigen::Index>(places_.size());
-    const MatrixXd Q = Q_ + kappa * flux_.transpose() * flux_;
+    const MatrixXd &flux = form_.flux(), Q = form_.Q() + kappa * flux.transpose() * flux;
     const VectorXd diagonal = Q.diagonal();
     VectorXd n(count), r(count), up(count), down(count);
     std::vector<int> crowds(places_.size());
@@ -295,10 +233,10 @@ class Search {
         n[i] = n_[i];
         crowds[i] = crowd(i);
       }
-      VectorXd b = b_;
-      if (!loops_.empty()) {
-        const VectorXd turned = turning_ + flux_ * n;
-        b -= kappa * flux_.transpose() * (turning_ - unit_ * (turned / unit_).array().round().matrix());
+      VectorXd b = form_.b();
+      if (flux.rows() > 0) {
+        const VectorXd turned = (form_.turning() + flux * n) / form_.unit();
+        b -= kappa * flux.transpose() * (form_.turning() - form_.unit() * turned.array().round().matrix());
       }
       r = Q * n - b;
       for (Eigen::Index i = 0; i < count; ++i) {
@@ -367,7 +305,7 @@ class Search {
       n[static_cast<Eigen::Index>(i)] = n_[i];
       if (!is_hole(places_[i])) result.cost += options_.price * price_of(n_[i]);
     }
-    result.cost += u0_.col(0).cwiseAbs2().dot(weights_) + n.dot(Q_ * n - 2 * b_);
+    result.cost += form_.constant() + n.dot(form_.Q() * n - 2 * form_.b());
     return result;
   }
 
@@ -384,18 +322,10 @@ class Search {
   const std::vector<Point>& points_;
   const Net& net_;
   const ConeOptions options_;
-  const double unit_;  // a k-th turn
-  Laplace laplace_;
-  const std::vector<std::vector<int>> loops_;
-  VectorXd weights_, b_, turning_;
-  MatrixXd u0_, Q_, flux_;
-  // With G the Green's function of a vertex times a k-th turn and W the areas: L^-1 W G, so that the quadratic form
-  // of u is read off at the other candidates, and what G carries across the loops. Empty until it is needed.
-  std::vector<VectorXd> response_, flux_of_;  // #V
-  VectorXd response0_;                        // of u without cones
+  ScaleForm form_;
   std::vector<int> spread_, places_, n_;
   std::vector<std::vector<std::size_t>> near_;  // to each candidate, ascending
-  int total_ = 0, most_ = 0, least_ = 0;
+  int most_ = 0, least_ = 0;
   double spacing_ = 0;
   std::mt19937 random_;
 };
@@ -428,57 +358,6 @@ Cones refined_cones(const mesh::Surface& surface, const std::vector<int>& missin
   execution.report(0);
   const Net net(surface);
   return Search(surface, net, options, execution).from_level(missing);
-}
-
-std::vector<std::vector<int>> dual_loops(const Net& net) {
-  std::vector<std::vector<int>> result;
-  if (net.genus == 0) return result;
-  // A tree of edges, holes contracted; a tree of triangles across the other edges; what is left closes a loop each.
-  std::vector<std::vector<int>> leaving(net.vertex_count()), on_hole(net.vertex_count());
-  for (int side = 0; side < net.side_count(); ++side) leaving[net.tail[side]].push_back(side);
-  for (int v = 0; v < net.vertex_count(); ++v) {
-    if (net.hole[v] >= 0) on_hole[net.hole[v]].push_back(v);
-  }
-  std::vector<char> seen(net.vertex_count(), 0), in_tree(net.side_count(), 0), reached(net.triangle_count(), 0);
-  std::vector<int> queue;
-  const auto visit = [&](int v) {
-    const std::vector<int> one{v};
-    for (const int w : net.hole[v] >= 0 ? on_hole[net.hole[v]] : one) {
-      seen[w] = 1;
-      queue.push_back(w);
-    }
-  };
-  visit(net.tail[0]);
-  for (std::size_t i = 0; i < queue.size(); ++i) {
-    for (const int side : leaving[queue[i]]) {
-      if (seen[net.head[side]] || net.twin[side] < 0) continue;
-      in_tree[side] = in_tree[net.twin[side]] = 1;
-      visit(net.head[side]);
-    }
-  }
-  std::vector<int> entered(net.triangle_count(), -1);  // the side that the tree crosses into a triangle
-  queue.assign(1, 0);
-  reached[0] = 1;
-  for (std::size_t i = 0; i < queue.size(); ++i) {
-    for (int side = 3 * queue[i]; side < 3 * queue[i] + 3; ++side) {
-      const int back = net.twin[side];
-      if (back < 0 || in_tree[side] || reached[back / 3]) continue;
-      reached[back / 3] = 1;
-      entered[back / 3] = side;
-      in_tree[side] = in_tree[back] = 1;
-      queue.push_back(back / 3);
-    }
-  }
-  for (int side = 0; side < net.side_count(); ++side) {
-    if (net.twin[side] < side || in_tree[side]) continue;
-    std::vector<int> loop;
-    for (int s = entered[side / 3]; s >= 0; s = entered[s / 3]) loop.push_back(s);
-    std::reverse(loop.begin(), loop.end());
-    loop.push_back(side);
-    for (int s = entered[net.twin[side] / 3]; s >= 0; s = entered[s / 3]) loop.push_back(net.twin[s]);
-    result.push_back(std::move(loop));
-  }
-  return result;
 }
 
 }  // namespace holomorph::turns

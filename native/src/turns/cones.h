@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "turns/laplace.h"
 #include "turns/level_field.h"
 #include "turns/net.h"
 
@@ -39,9 +38,5 @@ std::vector<Cones> find_cones(const mesh::Surface& surface, const ConeOptions& o
 /// Goes on from cones that were found on a coarser level of the surface, #V.
 Cones refined_cones(const mesh::Surface& surface, const std::vector<int>& missing, const ConeOptions& options,
                     Execution& execution);
-
-/// The closed dual curves that generate the homology of the surface with its holes filled: 2 genus lists of the sides
-/// that they cross.
-std::vector<std::vector<int>> dual_loops(const Net& net);
 
 }  // namespace holomorph::turns

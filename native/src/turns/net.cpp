@@ -126,4 +126,55 @@ Net::Net(const mesh::Surface& surface)
   genus = (2 - holes - (vertices - edges + triangle_count())) / 2;
 }
 
+std::vector<std::vector<int>> dual_loops(const Net& net) {
+  std::vector<std::vector<int>> result;
+  if (net.genus == 0) return result;
+  // A tree of edges, holes contracted; a tree of triangles across the other edges; what is left closes a loop each.
+  std::vector<std::vector<int>> leaving(net.vertex_count()), on_hole(net.vertex_count());
+  for (int side = 0; side < net.side_count(); ++side) leaving[net.tail[side]].push_back(side);
+  for (int v = 0; v < net.vertex_count(); ++v) {
+    if (net.hole[v] >= 0) on_hole[net.hole[v]].push_back(v);
+  }
+  std::vector<char> seen(net.vertex_count(), 0), in_tree(net.side_count(), 0), reached(net.triangle_count(), 0);
+  std::vector<int> queue;
+  const auto visit = [&](int v) {
+    const std::vector<int> one{v};
+    for (const int w : net.hole[v] >= 0 ? on_hole[net.hole[v]] : one) {
+      seen[w] = 1;
+      queue.push_back(w);
+    }
+  };
+  visit(net.tail[0]);
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    for (const int side : leaving[queue[i]]) {
+      if (seen[net.head[side]] || net.twin[side] < 0) continue;
+      in_tree[side] = in_tree[net.twin[side]] = 1;
+      visit(net.head[side]);
+    }
+  }
+  std::vector<int> entered(net.triangle_count(), -1);  // the side that the tree crosses into a triangle
+  queue.assign(1, 0);
+  reached[0] = 1;
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    for (int side = 3 * queue[i]; side < 3 * queue[i] + 3; ++side) {
+      const int back = net.twin[side];
+      if (back < 0 || in_tree[side] || reached[back / 3]) continue;
+      reached[back / 3] = 1;
+      entered[back / 3] = side;
+      in_tree[side] = in_tree[back] = 1;
+      queue.push_back(back / 3);
+    }
+  }
+  for (int side = 0; side < net.side_count(); ++side) {
+    if (net.twin[side] < side || in_tree[side]) continue;
+    std::vector<int> loop;
+    for (int s = entered[side / 3]; s >= 0; s = entered[s / 3]) loop.push_back(s);
+    std::reverse(loop.begin(), loop.end());
+    loop.push_back(side);
+    for (int s = entered[net.twin[side] / 3]; s >= 0; s = entered[s / 3]) loop.push_back(net.twin[s]);
+    result.push_back(std::move(loop));
+  }
+  return result;
+}
+
 }  // namespace holomorph::turns

@@ -43,4 +43,8 @@ struct Net {
   int genus = 0;
 };
 
+/// The closed dual curves that generate the homology of the surface with its holes filled: 2 genus lists of the sides
+/// that they cross.
+std::vector<std::vector<int>> dual_loops(const Net& net);
+
 }  // namespace holomorph::turns

@@ -7,7 +7,6 @@
 
 #include "base/errors.h"
 #include "linear/dense.h"
-#include "turns/cones.h"
 
 namespace holomorph::turns {
 namespace {

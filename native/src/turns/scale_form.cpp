@@ -1,0 +1,84 @@
+#include "turns/scale_form.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace holomorph::turns {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+constexpr std::size_t kSolvedAtOnce = 64;  // candidates
+
+}  // namespace
+
+ScaleForm::ScaleForm(const Net& net, int k)
+    : net_(net), unit_(kTwoPi / k), laplace_(net), loops_(dual_loops(net)), weights_(net.vertex_count()) {
+  for (int v = 0; v < net.vertex_count(); ++v) weights_[v] = net.vertex_area[v] / net.whole_area;
+  VectorXd defect = VectorXd::Zero(net.vertex_count());
+  double sum = 0;
+  for (int v = 0; v < net.vertex_count(); ++v) {
+    if (net.first[v] < 0) continue;
+    const double own = net.defect[v] + (net.hole[v] == v ? kTwoPi : 0);
+    defect[place_of(net, v)] += own;
+    sum += own;
+  }
+  total_ = static_cast<int>(std::lround(sum / unit_));
+  u0_ = laplace_.solve(-defect).col(0);
+  constant_ = u0_.cwiseAbs2().dot(weights_);
+  response0_ = laplace_.solve(weights_.cwiseProduct(u0_)).col(0);
+  response_.resize(net.vertex_count());
+  flux_of_.resize(net.vertex_count());
+  turning_ = fluxes(u0_).col(0);
+  for (std::size_t l = 0; l < loops_.size(); ++l) {
+    for (const int side : loops_[l]) turning_[static_cast<Eigen::Index>(l)] += net.transport[side];
+  }
+}
+
+MatrixXd ScaleForm::fluxes(const MatrixXd& functions) const {
+  MatrixXd result = MatrixXd::Zero(std::ssize(loops_), functions.cols());
+  for (Eigen::Index l = 0; l < result.rows(); ++l) {
+    for (const int side : loops_[l])
+      result.row(l) += net_.weight[side] * (functions.row(net_.head[side]) - functions.row(net_.tail[side]));
+  }
+  return result;
+}
+
+void ScaleForm::respond(const std::vector<int>& places, const std::function<void()>& report) {
+  std::vector<int> fresh;
+  for (const int place : places) {
+    if (response_[place].size() == 0) fresh.push_back(place);
+  }
+  for (std::size_t first = 0; first < fresh.size(); first += kSolvedAtOnce) {
+    report();
+    const auto count = static_cast<Eigen::Index>(std::min(kSolvedAtOnce, fresh.size() - first));
+    MatrixXd B = MatrixXd::Zero(net_.vertex_count(), count);
+    for (Eigen::Index i = 0; i < count; ++i) B(fresh[first + i], i) = unit_;
+    const MatrixXd G = laplace_.solve(B), response = laplace_.solve(weights_.asDiagonal() * G), flux = fluxes(G);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      response_[fresh[first + i]] = unit_ * response.col(i);
+      flux_of_[fresh[first + i]] = flux.col(i);
+    }
+  }
+}
+
+void ScaleForm::take(const std::vector<int>& places, const std::function<void()>& report) {
+  respond(places, report);
+  const auto count = std::ssize(places);
+  Q_.resize(count, count);
+  b_.resize(count);
+  flux_.resize(std::ssize(loops_), count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const VectorXd& column = response_[places[j]];
+    for (Eigen::Index i = 0; i < count; ++i) Q_(i, j) = column[places[i]];
+    b_[j] = -unit_ * response0_[places[j]];
+    flux_.col(j) = flux_of_[places[j]];
+  }
+  Q_ = (0.5 * (Q_ + Q_.transpose())).eval();
+}
+
+}  // namespace holomorph::turns
