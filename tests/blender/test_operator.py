@@ -278,7 +278,9 @@ def test_checker_nodes():
     assert checker.outputs[0].links[0].to_socket.name == "Base Color"
     scale = checker.inputs["Scale"].links[0].from_node
     assert scale.type == "VALUE" and scale.outputs[0].default_value == 10
-    uv_node = checker.inputs["Vector"].links[0].from_node
+    shift = checker.inputs["Vector"].links[0].from_node  # to the middle of a square, for maps that turn
+    assert shift.type == "VECT_MATH" and not any(shift.inputs[1].default_value)
+    uv_node = shift.inputs[0].links[0].from_node
     assert uv_node.type == "UVMAP" and uv_node.uv_map == "Holomorphic"
     run(checker_scale=30)
     assert obj.material_slots[0].material == material

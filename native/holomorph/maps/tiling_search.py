@@ -17,6 +17,7 @@ from ..core.progress import scaled
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from ..tiling.tilings import Tiling, generators
+from ..tiling.turned import LATTICE
 from .arrangement import on_grid
 from .automatic_structure import AnyStructure
 from .map import Map
@@ -35,6 +36,8 @@ ROUNDED = 0.9
 # The evened size range above which two more poles are tried, where that is quick, and tiles are so many that their
 # rounding decides less than the poles.
 UNEVEN, MORE_POLES, MOST_POLES, FEW_TRIANGLES, MANY_TILES = 1.73, 2, 16, 5000, 60
+
+POOR_TURNED = 2.0  # cost of a tiling that turns, above which one that is only shifted is tried: most cost 0.7 to 1.8
 
 MOST_TURNED = 0.5  # radians from the direction that is asked for, where no whole tiles of one size are nearer to it
 MOST_STRETCHED = 1.35  # factor: whole tiles around a limb, from three on, are never further from the wanted size
@@ -109,6 +112,24 @@ class TilingSearch:
             return None
 
     def _of_tiles(self, size, progress):
+        """One that turns where that is asked for; one that is only shifted where that is impossible, or where the other
+        is poor or loses triangles and it costs less: its jumps are symmetries of the texture, too."""
+        turns = self._request.options.get("turns", 1)
+        if turns == 1:
+            return self._shifted(size, progress)
+        step, size = scaled(progress, 1.0, 1.0), size | ({"lattice": LATTICE[turns]} if turns in LATTICE else {})
+        try:
+            turned = self._with(self._request.poles, size, progress, turns=turns)
+        except REFUSALS:
+            return self._shifted(size, step)
+        if turned.quality.lost_part == 0 and turned.cost < POOR_TURNED:
+            return turned
+        try:
+            return min(turned, self._shifted(size, step), key=lambda each: each.cost)
+        except REFUSALS:
+            return turned
+
+    def _shifted(self, size, progress):
         """The one of least cost among those with the poles that are asked for, or, where that is left open, with as
         many as the density asks for, with none, or with two more: on few faces the density is less even than it was
         expected when poles were placed."""
@@ -153,9 +174,9 @@ class TilingSearch:
     def _has_tilings_without_poles(self):
         return self.surface.genus > 0 or self.surface.boundary_count > 1
 
-    def _with(self, poles, size, progress):
+    def _with(self, poles, size, progress, turns=1):
         """Raises what `Structure.tile` raises; TopologyError where too much is lost."""
-        options = {**self._request.tiling, "moves": {}, **size}
+        options = {**self._request.tiling, "moves": {}, **size, "turns": turns}
         made = self._structure.tile(poles=poles, surface=self.surface, progress=progress, **options)
         lost = made.quality.lost_part
         if not lost < MOST_LOST:

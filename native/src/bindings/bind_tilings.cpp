@@ -67,7 +67,8 @@ std::unique_ptr<turns::TurnedMaps> turned_maps(const std::shared_ptr<mesh::Surfa
   return std::make_unique<turns::TurnedMaps>(surface, options);
 }
 
-py::tuple turned_map(turns::TurnedMaps& maps, double tiles, double evenness, int threads, const py::object& progress) {
+std::array<py::array, 5> turned_map(turns::TurnedMaps& maps, double tiles, double evenness, int threads,
+                                    const py::object& progress) {
   const turns::TurnedMap made =
       unlocked(threads, progress, [&](Execution& execution) { return maps.turned_map(tiles, evenness, execution); });
   Eigen::Matrix<std::int64_t, Eigen::Dynamic, 4, Eigen::RowMajor> jumps(std::ssize(made.jumps), 4);
@@ -75,7 +76,7 @@ py::tuple turned_map(turns::TurnedMaps& maps, double tiles, double evenness, int
     const turns::Jump& jump = made.jumps[i];
     jumps.row(i) << jump.edge, jump.turn, jump.translation[0], jump.translation[1];
   }
-  return py::make_tuple(copy(made.uv), copy(made.before), copy(jumps), copy(made.cones), copy(made.missing));
+  return {copy(made.uv), copy(made.before), copy(jumps), copy(made.cones), copy(made.missing)};
 }
 
 void bind_turned_map(py::module_& m) {
