@@ -11,6 +11,7 @@ from ..core.array_types import Progress
 from ..mesh.checks import check_list, check_type
 from ..mesh.surface import Surface
 from ..tiling.tiling import Poles
+from ..tiling.turned import checked_turns
 from .automatic_structure import AnyStructure
 from .map import Map
 from .map_objects import map_objects
@@ -73,7 +74,7 @@ def automatic_map(
     """
     check_type(surface, Surface)
     options = {"lattice": lattice, "boundary": boundary, "turn": turn, "max_turn": max_turn, "max_added": max_added}
-    options |= {"turns": turns}
+    options |= {"turns": checked_turns(turns)}
     request = Request(surface, structure, main, poles, evenness, direction, options=options)
     size = SizePolicy.of([surface], tiles, density, density_tolerance)
     (((made,), _),) = map_objects([[request]], size, threads, progress)

@@ -199,6 +199,12 @@ def test_wrong_choices_are_named(options, words):
         automatic_structure(surface_of(families.geodesic_sphere(3))).tile(**options)
 
 
+@pytest.mark.parametrize("turns", [3, 4.0, [4], True, "4", None])
+def test_an_automatic_map_names_wrong_turns(turns):
+    with pytest.raises(ValueError, match="turns is .*; one of 1, 2, 4, 6 is needed"):
+        automatic_map(surface_of(families.geodesic_sphere(3)), turns=turns)
+
+
 def test_a_surface_without_positions_is_refused():
     torus = surface_of(families.torus(12, 8))
     points = torus.vertices[torus.triangles]
