@@ -17,6 +17,7 @@ from ..core.value import Value, counted
 from ..forms.solver_report import SolverReport
 from ..mesh.checks import check_list, check_options
 from ..mesh.surface import Surface
+from ..tiling.turned import checked_turns
 
 if TYPE_CHECKING:
     from .progressive import ProgressiveMesh
@@ -56,6 +57,7 @@ def levels_of_detail(
     n_faces: Sequence[int],
     *,
     harmonic: bool = False,
+    turns: int | Sequence[int] = 1,
     solver: str = "auto",
     threads: int | None = None,
     progress: Progress | None = None,
@@ -70,12 +72,16 @@ def levels_of_detail(
 
     Any other UV map is collapsed likewise: within its islands every vertex keeps its UVs.
 
+    A map that turns across its seams, too, keeps its turns and its cones: `kept` of the progressive mesh names these
+    (`cones`), and no level has fewer vertices.
+
     Parameters
     ----------
     uv : (#C, 2) of the original's polygon corners, or (#C, m, 2) for several maps
     n_faces : numbers of triangles, as in `level`; one level each
     harmonic : whether to solve on each level; for one surface with handles or two boundary loops, and maps that are
         translated across seams and have straight boundaries: v constant along each
+    turns : 2, 4 or 6 where UVs also turn by this part of a full turn, see `Tiling.turns`; of each map, or of all
     solver, threads, progress : as in `holomorph.conformal_structure`, for `harmonic`
 
     Returns
@@ -88,7 +94,7 @@ def levels_of_detail(
         if `uv` does not fit the corners or is not finite, or if `harmonic` finds a seam with a rotation or a scaling,
         or a boundary that is not straight
     TopologyError
-        if `harmonic` does not apply to the topology
+        if `harmonic` does not apply to the topology, or a cone was not kept
 
     Cost: linear in the number of corners; with `harmonic` 2m solves on each level.
     """
@@ -96,7 +102,8 @@ def levels_of_detail(
     uv, maps = _maps(uv, mesh._corner_count)
     check_list(n_faces, "n_faces")
     splits = [mesh._split_count(n) for n in n_faces]
-    collapsed = mesh._native.collapsed_corner_values(maps, splits)
+    of_maps = np.broadcast_to(np.asarray(turns, object), maps.shape[1] // 2)
+    collapsed = mesh._native.collapsed_corner_values(maps, splits, [checked_turns(each) for each in of_maps])
     levels = []
     for index, (count, given) in enumerate(zip(splits, collapsed)):
         surface, values, report = mesh._level(count), given.values, None
@@ -113,6 +120,12 @@ def levels_of_detail(
     return tuple(levels)
 
 
+def cones(surface: Surface, uv: ArrayLike, turns: int) -> Integers:
+    """(n,) vertices around which the (#C, 2) UVs of a map that turns do so by more or less than a full turn."""
+    uv, _ = _maps(uv, len(surface.corner_vertices))
+    return arrays.frozen(_native.cones(surface._native, uv, checked_turns(turns)))
+
+
 def level_corner_data(mesh: ProgressiveMesh, n_faces: int) -> NDArray[Any] | None:
     """Rows of `corner_data` for the corners of ``level(n_faces)``, None if there are none: that of a corner of the
     original at the same vertex and on the same side of all edges across which the data jump; where the vertex has
@@ -125,7 +138,7 @@ def level_corner_data(mesh: ProgressiveMesh, n_faces: int) -> NDArray[Any] | Non
     if rows.size:
         rows = rows.view(np.dtype((np.void, rows.dtype.itemsize * rows.shape[1])))[:, 0]
         kinds = np.unique(rows, return_inverse=True)[1].astype(float)
-    (level,) = mesh._native.collapsed_corner_values(kinds[:, None], [mesh._split_count(n_faces)])
+    (level,) = mesh._native.collapsed_corner_values(kinds[:, None], [mesh._split_count(n_faces)], [])
     return arrays.frozen(data[level.corners])
 
 

@@ -46,13 +46,14 @@ class ProgressiveMesh(Value):
     order : which edges are collapsed first: "quadric", by quadric error (Garland & Heckbert 1997,
         doi:10.1145/258734.258849), for levels of detail; "independent", several times faster, by rounds in which
         vertices that are pairwise not adjacent are collapsed along their shortest edges
+    kept : vertices that every level has, such as the cones of a map that turns
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
     Raises
     ------
     InvalidMesh
         if the surface is intrinsic, if its triangulated polygons have two edges with the same ends even after
-        diagonals are flipped, or if `corner_data` does not fit the corners.
+        diagonals are flipped, or if `corner_data` or `kept` do not fit the surface.
     Cancelled
         if `progress` returned False
     """
@@ -63,6 +64,7 @@ class ProgressiveMesh(Value):
         *,
         corner_data: ArrayLike | None = None,
         order: str = "quadric",
+        kept: ArrayLike = (),
         progress: Progress | None = None,
     ) -> None:
         check_type(surface, Surface)
@@ -71,7 +73,10 @@ class ProgressiveMesh(Value):
         kind, data = "", b""
         if corner_data is not None:
             kind, data = arrays.packed(corner_data, len(surface.corner_vertices))
-        self._native = _native.ProgressiveMesh.make(surface._native, order, kind, data, progress)
+        vertices = arrays.integer(kept if len(kept) else np.empty(0, np.int64), "kept")
+        if len(vertices) and not 0 <= vertices.min() <= vertices.max() < surface._native.vertex_count:
+            raise InvalidMesh("kept names a vertex that is not in the surface")
+        self._native = _native.ProgressiveMesh.make(surface._native, order, kind, data, vertices.tolist(), progress)
 
     @classmethod
     def load(cls, path: FilePath) -> ProgressiveMesh:

@@ -28,6 +28,10 @@ class Cells(SurfacePoints):
     out, but a brick keeps the corners of those above and below it. The star of a pole, its triangles, is one polygon. A
     tile that is not a disk with a simple outline is cut into a few: it may have a hole, or meet itself around a limb.
 
+    Where the tiling turns, a cone at a corner of tiles has as many of them around it as its angle has right ones, 3 or
+    5. Around a cone inside it a tile has 3 or 5 sides, or is folded; its UVs do not close up. Tiles of an even number
+    of columns and rows have their corners at all cones, and are quads.
+
     corner_vertices, face_offsets : (#C,) and (#F + 1,) the polygons, as in `Surface`, oriented as its triangles
     uv : (#C, 2) of each corner, continued across seams in a polygon
     is_corner : (#C,) bool: a corner of a tile

@@ -16,6 +16,8 @@ from ..core.array_types import Integers, Reals
 from ..core.value import Value, counted, quoted
 from ..mesh.checks import check_options, real_number
 from ..mesh.surface import Surface
+from ..quality.verdicts import TURNED
+from ..tiling.image_turns import ALIKE
 from ..tiling.tilings import MOST_PER_TILE
 from .relief_normals import normals
 
@@ -151,13 +153,13 @@ def raised(
 ) -> Relief:
     """See `TiledSurface.relief`."""
     surface = tiled.surface
-    pixels = checked_heights(heights)
+    pixels = symmetric(checked_heights(heights), tiled.turns)
     depth = checked_depth(depth, surface.vertices)
     most = check_choices(repeats, level, tolerance, most_triangles)
     of_vertices, of_corners, are_reflex = normals(surface, level == 0)
     found = _native.relief(
         surface._native,
-        tiled._coordinates(((repeats, 0), (0, repeats))),
+        tiled._coordinates(((repeats, 0), (0, repeats)), turns=tiled.turns),
         normals=of_vertices,
         corner_normals=of_corners,
         are_reflex=are_reflex,
@@ -214,6 +216,24 @@ def checked_heights(heights):
     if low == high:
         raise ValueError(f"the picture has the height {low:.3g} everywhere: nothing can be raised")
     return pixels
+
+
+def symmetric(pixels: Reals, turns: int) -> Reals:
+    """The mean of (h, w) heights over the turns about the middle. Raises ValueError where they look another way
+    then."""
+    if turns == 1:
+        return pixels
+    if turns == 4 and pixels.shape[0] != pixels.shape[1]:
+        raise ValueError(f"{pixels.shape[1]} x {pixels.shape[0]} pixels cannot turn by a quarter: a square is needed")
+    turned = [np.rot90(pixels, k * 4 // turns) for k in range(turns)]
+    differences = [pixels - pixels.mean(), turned[1] - pixels.mean()]
+    alike = (differences[0] * differences[1]).sum() / np.square(differences[0]).sum()
+    if alike < ALIKE:
+        raise ValueError(
+            f"the heights do not look the same after {TURNED[turns]} about the middle of the picture, as the tiling "
+            f"does ({100 * max(alike, 0):.0f} %)"
+        )
+    return sum(turned) / turns
 
 
 def checked_depth(depth, vertices):

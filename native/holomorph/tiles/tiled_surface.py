@@ -156,12 +156,17 @@ class TiledSurface(Value):
 
         per_tile, shifted_rows : as of `places`, which are the middles: with shifted rows cells are bricks
 
-        Raises ValueError for others; SolverError for too many. Cost: linear in triangles and their pieces.
+        Where the tiling turns by quarters, a tile has as many columns as rows, not shifted; where it turns by halves,
+        bricks lie a quarter of their length to the left, as half turns leave them.
+
+        Raises ValueError for others; TopologyError for a tiling that turns by sixths; SolverError for too many. Cost:
+        linear in triangles and their pieces.
         """
-        self._refuse_turns("cells")
         columns, rows = _grid(per_tile, shifted_rows)
         parts = 2 if shifted_rows else 1  # of the columns: rows of bricks begin with the first or the second
-        coordinates = self._coordinates(((parts * columns, 0), (0, rows)))
+        lies = (-0.5 / parts if shifted_rows and self.turns == 2 else 0.0) / columns, 0.0
+        self._check_cells((columns, rows), shifted_rows)
+        coordinates = self._coordinates(((parts * columns, 0), (0, rows)), lies, turns=self.turns)
         found = _native.cells(self.surface._native, coordinates, bricks=shifted_rows, threads=self._threads)
         points, first, is_whole = found.corner_points, found.offsets[:-1], found.is_whole.astype(bool)
         is_line = points == np.rint(points)
@@ -169,12 +174,13 @@ class TiledSurface(Value):
             is_line[:, 0] &= (points[:, 0] + np.repeat(found.tiles[:, 1], np.diff(found.offsets))) % 2 == 0
         is_corner = is_line.all(axis=1)
         is_tile = np.logical_and.reduceat(is_line.any(axis=1), first) & is_whole & (found.poles < 0)
+        is_tile &= found.turns == 0
         return Cells(
             corner_vertices=found.corner_vertices,
             face_offsets=found.offsets,
-            uv=arrays.frozen(points / (parts * columns, rows) @ self.lattice.T),
+            uv=arrays.frozen((points / (parts * columns, rows) + lies) @ self.lattice.T),
             is_corner=arrays.frozen(is_corner),
-            tiles=arrays.frozen((found.tiles + (parts // 2, 0)) // (parts * columns, rows)),
+            tiles=arrays.frozen((found.tiles + (0 if any(lies) else parts // 2, 0)) // (parts * columns, rows)),
             poles=found.poles,
             is_quad=arrays.frozen(is_tile & (np.add.reduceat(is_corner.astype(int), first) == 4)),
             is_whole=arrays.frozen(is_whole),
@@ -209,24 +215,35 @@ class TiledSurface(Value):
         most_triangles : where that takes more, those that are farthest off are halved first
         pole_fade : in tiles: around a pole, whose triangles stay as they are, heights rise to their own over so much
 
-        Raises ValueError for others, a picture with the same height everywhere, or a depth above the size of the mesh;
+        Where the tiling turns, the picture is to look the same after these turns: of what differs the mean is taken.
+
+        Raises ValueError for others, a picture with the same height everywhere, one that does not look the same after
+        turns of the tiling, or a depth above the size of the mesh; TopologyError for a tiling that turns by sixths;
         Cancelled. Cost: n log n in the triangles that are made.
         """
-        self._refuse_turns("a relief")
+        self._refuse_sixths("a relief")
         count = _count(repeats, "repeats")
         return raised(self, heights, depth, count, level, tolerance, most_triangles, pole_fade, progress)
 
-    def _refuse_turns(self, thing):
-        if self.turns != 1:
-            raise TopologyError(f"{thing} cannot be made on a tiling that turns yet: take turns=1")
+    def _check_cells(self, per_tile, shifted_rows):
+        self._refuse_sixths("cells")
+        if self.turns == 4 and (per_tile[0] != per_tile[1] or shifted_rows):
+            raise ValueError("cells of a tiling with quarter turns have as many columns as rows, not shifted")
 
-    def _coordinates(self, steps=((1, 0), (0, 1)), origin=(0.0, 0.0)):
+    def _refuse_sixths(self, thing):
+        if self.turns == 6:
+            raise TopologyError(f"{thing} cannot be made where tiles turn by sixths, which leave none: take turns=2")
+
+    def _coordinates(self, steps=((1, 0), (0, 1)), origin=(0.0, 0.0), turns=1):
+        """Those of the opened surface, but of the surface itself where turns are taken into account."""
+        opened = self._opened if turns == 1 else None
         return _native.tile_coordinates(
-            self._native,
-            self._opened.uv if self._opened else self.uv,
+            opened.native if opened else self.surface._native,
+            opened.uv if opened else self.uv,
             inverse_lattice=np.linalg.inv(self.lattice),
             origin=np.asarray(origin, float),
             steps=np.asarray(steps, np.int32),
+            turns=turns,
             threads=self._threads,
         )
 

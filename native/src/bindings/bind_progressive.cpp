@@ -6,6 +6,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
+#include "mesh/corner_turns.h"
 #include "mesh/make_surface.h"
 #include "progressive/corner_values.h"
 #include "progressive/file_format.h"
@@ -22,12 +23,12 @@ using Pointer = std::shared_ptr<ProgressiveMesh>;
 using SurfacePointer = std::shared_ptr<mesh::Surface>;
 
 Pointer make(const mesh::Surface& surface, const std::string& order, const std::string& corner_type,
-             const py::bytes& corner_data, const py::object& progress_function) {
+             const py::bytes& corner_data, const std::vector<int>& kept, const py::object& progress_function) {
   const std::string_view data = corner_data;
   Execution execution(0, callback(progress_function));
   const py::gil_scoped_release unlocked;
   const auto which = order == "quadric" ? progressive::Order::quadric : progressive::Order::independent;
-  auto mesh = std::make_shared<ProgressiveMesh>(progressive_mesh(surface, which, execution));
+  auto mesh = std::make_shared<ProgressiveMesh>(progressive_mesh(surface, which, execution, kept));
   mesh->corner_type = corner_type;
   mesh->corner_data.assign(data.begin(), data.end());
   return mesh;
@@ -94,13 +95,13 @@ struct LevelCorners {
 };
 
 std::vector<LevelCorners> collapsed_corner_values(const ProgressiveMesh& mesh, const Contiguous<double>& array,
-                                                  const std::vector<int>& splits) {
+                                                  const std::vector<int>& splits, const std::vector<int>& turns) {
   const std::vector<double> given = values(array);
   const int width = static_cast<int>(array.shape(1));
   std::vector<progressive::CornerValues> levels;
   {
     const py::gil_scoped_release unlocked;
-    levels = progressive::collapsed_corner_values(mesh, given, width, splits);
+    levels = progressive::collapsed_corner_values(mesh, given, width, splits, turns);
   }
   std::vector<LevelCorners> result;
   for (const auto& level : levels) {
@@ -110,9 +111,21 @@ std::vector<LevelCorners> collapsed_corner_values(const ProgressiveMesh& mesh, c
   return result;
 }
 
+/// The vertices at which UVs turn around by less or more than a full turn.
+py::array cones(const mesh::Surface& surface, const Contiguous<double>& uv, int turns) {
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>> rows(uv.data(), uv.shape(0), 2);
+  const mesh::CornerTurns found(surface, rows, mesh::TurnGroup::of_plane(turns));
+  std::vector<int> result;
+  for (int v = 0; v < surface.vertex_count; ++v) {
+    if (found.around(v) != 0) result.push_back(v);
+  }
+  return copy(result);
+}
+
 }  // namespace
 
 void bind_progressive_meshes(py::module_& m) {
+  m.def("cones", &cones, py::arg("surface"), py::arg("uv"), py::arg("turns"));
   const auto viewed = [](auto member) {
     return [member](py::object self) { return view(self.cast<const ProgressiveMesh&>().*member, self); };
   };
@@ -127,7 +140,7 @@ void bind_progressive_meshes(py::module_& m) {
       .def_readonly("corners", &LevelCorners::corners);
   py::class_<ProgressiveMesh, Pointer>(m, "ProgressiveMesh")
       .def_static("make", &make, py::arg("surface"), py::arg("order"), py::arg("corner_type"), py::arg("corner_data"),
-                  py::arg("progress"))
+                  py::arg("kept"), py::arg("progress"))
       .def_static("from_bytes", &from_bytes, py::arg("bytes"))
       .def("to_bytes", &to_bytes)
       .def("level", &level, py::arg("splits"))
@@ -139,7 +152,7 @@ void bind_progressive_meshes(py::module_& m) {
           [](const ProgressiveMesh& mesh, int splits) { return copy(progressive::vertex_map(mesh, splits)); },
           py::arg("splits"))
       .def("lift_loops", &lift_loops, py::arg("splits"), py::arg("loops"))
-      .def("collapsed_corner_values", &collapsed_corner_values, py::arg("values"), py::arg("splits"))
+      .def("collapsed_corner_values", &collapsed_corner_values, py::arg("values"), py::arg("splits"), py::arg("turns"))
       .def(
           "base_half_edges",
           [](const ProgressiveMesh& mesh, const mesh::Surface& surface, const std::vector<int>& map) {

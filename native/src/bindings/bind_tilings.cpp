@@ -135,11 +135,11 @@ using tiles::TileCoordinates;
 // The facade has checked the shapes.
 TileCoordinates tile_coordinates(const Surface& surface, const Contiguous<double>& uv,
                                  const Eigen::Matrix2d& inverse_lattice, const Eigen::Vector2d& origin,
-                                 const Eigen::Matrix2i& steps, int threads) {
+                                 const Eigen::Matrix2i& steps, int turns, int threads) {
   const Eigen::Map<const tiles::Corners> corners(uv.data(), uv.shape(0), 2);
   const py::gil_scoped_release unlocked;
   Execution execution(threads);
-  return tiles::tile_coordinates(surface, corners, {inverse_lattice, origin, steps}, execution);
+  return tiles::tile_coordinates(surface, corners, {inverse_lattice, origin, steps, turns}, execution);
 }
 
 Places places(const Surface& surface, const TileCoordinates& coordinates, int threads) {
@@ -242,7 +242,8 @@ void bind_tiles(py::module_& m) {
       .def_property_readonly("is_needed", member(&Cells::is_needed))
       .def_property_readonly("tiles", member(&Cells::tiles))
       .def_property_readonly("poles", member(&Cells::poles))
-      .def_property_readonly("is_whole", member(&Cells::is_whole));
+      .def_property_readonly("is_whole", member(&Cells::is_whole))
+      .def_property_readonly("turns", member(&Cells::turns));
   py::class_<Lines>(m, "Lines")
       .def_property_readonly("triangles", located(&Lines::points, &Locations::triangles))
       .def_property_readonly("barycentric", located(&Lines::points, &Locations::barycentric))
@@ -272,7 +273,7 @@ void bind_tiles(py::module_& m) {
   m.def("lines", &lines, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a);
   m.def("cells", &cells, "surface"_a, "coordinates"_a, py::kw_only(), "bricks"_a, "threads"_a);
   m.def("tile_coordinates", &tile_coordinates, "surface"_a, "uv"_a, py::kw_only(), "inverse_lattice"_a, "origin"_a,
-        "steps"_a, "threads"_a);
+        "steps"_a, "turns"_a = 1, "threads"_a);
   m.def("places", &places, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a);
 }
 

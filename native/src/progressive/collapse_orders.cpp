@@ -40,6 +40,7 @@ class IndependentOrder {
 
  private:
   void visit(int v, Geometry geometry) {
+    if ((mesh_.vertex(v).flags & Vertex::kKept) != 0) return;
     mesh_.gather(v);
     const int n = mesh_.neighbour_count();
     if (geometry == Geometry::checked && n > kLargestStar) return;
@@ -138,6 +139,7 @@ class QuadricOrder {
  private:
   // Collapses v, pushes it again, or leaves it out of the queue until its star changes.
   void visit(int v) {
+    if ((mesh_.vertex(v).flags & Vertex::kKept) != 0) return;
     mesh_.gather(v);
     const int n = mesh_.neighbour_count();
     if (n > static_cast<int>(costs_.size())) costs_.resize(2 * n);

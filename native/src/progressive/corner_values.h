@@ -1,6 +1,7 @@
 // Values at polygon corners, such as UVs, of the original on coarser levels.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "progressive/progressive_mesh.h"
@@ -22,10 +23,16 @@ struct CornerValues {
 /// wedges. Every vertex of a level keeps its UVs. Every edge has the difference of those of its ends along the
 /// collapsed path. So a level's map has the periods of the original's, and jumps across the image of its cuts only.
 ///
+/// Where UVs also turn across their cuts, the vector turns with them, from wedge to wedge: all the same holds. A cone
+/// must not move.
+///
 /// @param values #C x width, one row for each polygon corner of the original; finite
 /// @param splits the levels, from 0 to all splits each
+/// @param turns k for each two columns, UVs that turn by 2 pi / k across cuts; none: all are only translated
+/// @throws TopologyError where a cone is collapsed, which `kept` of progressive_mesh prevents
 /// @return one entry for each level. Cost: O(#T width), apart from the logarithm of a large star.
 std::vector<CornerValues> collapsed_corner_values(const ProgressiveMesh& mesh, const std::vector<double>& values,
-                                                  int width, const std::vector<int>& splits);
+                                                  int width, const std::vector<int>& splits,
+                                                  const std::vector<int>& turns = {});
 
 }  // namespace holomorph::progressive

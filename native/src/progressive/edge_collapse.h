@@ -20,7 +20,7 @@ struct alignas(64) Vertex {
   int side;  ///< leaves v; see CornerTable
   int next;  ///< in its bucket of the queue; kNowhere if it is in none, kWaiting between queue and visit
   std::uint32_t flags;
-  static constexpr std::uint32_t kBoundary = 1, kRemoved = 2, kTouched = 4;
+  static constexpr std::uint32_t kBoundary = 1, kRemoved = 2, kTouched = 4, kKept = 8;
   static constexpr int kNowhere = -2, kWaiting = -3;
 };
 

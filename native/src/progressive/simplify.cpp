@@ -197,11 +197,13 @@ std::optional<Surface> with_single_edges(const Surface& surface) {
   return result;
 }
 
-ProgressiveMesh progressive_mesh(const mesh::Surface& given, Order order, Execution& execution) {
+ProgressiveMesh progressive_mesh(const mesh::Surface& given, Order order, Execution& execution,
+                                 const std::vector<int>& kept) {
   execution.stage("edge collapses", 0.0, 1.0);
   const auto flipped = with_single_edges(given);
   const mesh::Surface& surface = flipped ? *flipped : given;
   EdgeCollapse collapse(surface);
+  for (const int v : kept) collapse.vertex(v).flags |= Vertex::kKept;
   order == Order::quadric ? collapse_by_quadrics(collapse, execution) : collapse_independent_sets(collapse, execution);
   execution.finish();
   Execution silent(execution.threads());

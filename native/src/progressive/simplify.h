@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "base/execution.h"
 #include "mesh/surface.h"
@@ -28,8 +29,10 @@ enum class Order {
 /// the boundary only. As long as possible no normal rotates by more than 75 degrees. Where that would leave a base
 /// without any area, the last collapses are left out. A diagonal with the same ends as another edge is flipped first
 /// (with_single_edges).
+/// @param kept vertices of every level
 /// @throws InvalidMesh for an intrinsic surface, or if a flip gives another double edge; Cancelled. Deterministic, one
 /// thread, O(#T) apart from very large stars.
-ProgressiveMesh progressive_mesh(const mesh::Surface& surface, Order order, Execution& execution);
+ProgressiveMesh progressive_mesh(const mesh::Surface& surface, Order order, Execution& execution,
+                                 const std::vector<int>& kept = {});
 
 }  // namespace holomorph::progressive

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace holomorph::tiles {
 namespace {
@@ -34,6 +33,7 @@ class Joining {
 
   Cells run() {
     open_flat_pieces();
+    if (p_.group.order() > 1) open_loose_ends();
     find_cells();
     find_what_is_no_disk();
     find_what_is_not_simple();
@@ -47,10 +47,15 @@ class Joining {
     return side + 1 < p_.offsets[piece_[side] + 1] ? side + 1 : p_.offsets[piece_[side]];
   }
   bool is_wall(int side) const { return is_wall_[p_.side_segments[side]]; }
-  /// The next wall around the cell.
-  int next_wall(int side) const {
+  /// The turn across a side that is no wall, to the piece beyond.
+  int across(int side) const { return p_.side_turns[side] - p_.side_turns[twin_[side]]; }
+  /// The next wall around the cell. `turn`: from the chart of its piece to that of the cell
+  int next_wall(int side, int& turn) const {
     int next = following(side);
-    while (!is_wall(next)) next = following(twin_[next]);
+    while (!is_wall(next)) {
+      turn -= across(next);
+      next = following(twin_[next]);
+    }
     return next;
   }
 
@@ -76,20 +81,49 @@ class Joining {
     return flat[0] || flat[1];
   }
 
+  // A side of a tile that is folded about a cone in its middle has the tile on both sides, and ends at the cone: no
+  // tile needs it.
+  void open_loose_ends() {
+    std::vector<int> walls(p_.nodes.triangles.size(), 0);  // at each node
+    std::vector<std::int64_t> ends(walls.size(), 0);       // the sum of their sides
+    for (int s = 0; s < std::ssize(twin_); ++s) {
+      if (!is_wall(s) || (twin_[s] != kNone && twin_[s] < s)) continue;
+      for (const int node : {p_.side_nodes[s], p_.side_nodes[following(s)]}) {
+        ++walls[node];
+        ends[node] += s;
+      }
+    }
+    for (std::size_t start = 0; start < walls.size(); ++start) {
+      for (auto node = static_cast<int>(start); walls[node] == 1;) {
+        const int s = static_cast<int>(ends[node]), from = p_.side_nodes[s], to = p_.side_nodes[following(s)];
+        is_wall_[p_.side_segments[s]] = 0;
+        walls[node] = 0;
+        node = node == from ? to : from;
+        --walls[node];
+        ends[node] -= s;
+      }
+    }
+  }
+
   // cell_: #P the first piece of each piece's cell
   void find_cells() {
-    cell_.resize(count());
-    std::iota(cell_.begin(), cell_.end(), 0);
-    const auto root = [&](int f) {
-      while (cell_[f] != f) f = cell_[f] = cell_[cell_[f]];
-      return f;
-    };
-    for (int s = 0; s < std::ssize(twin_); ++s) {
-      if (is_wall(s) || twin_[s] < s) continue;
-      const int a = root(piece_[s]), b = root(piece_[twin_[s]]);
-      cell_[std::max(a, b)] = std::min(a, b);
+    cell_.assign(count(), kNone);
+    turn_.assign(count(), 0);
+    for (int f = 0; f < count(); ++f) {
+      if (cell_[f] != kNone) continue;
+      cell_[f] = f;
+      std::vector<int> pending{f};
+      for (std::size_t i = 0; i < pending.size(); ++i) {
+        const int g = pending[i];
+        for (int s = p_.offsets[g]; s < p_.offsets[g + 1]; ++s) {
+          if (is_wall(s) || cell_[piece_[twin_[s]]] != kNone) continue;
+          const int h = piece_[twin_[s]];
+          cell_[h] = f;
+          turn_[h] = p_.group.reduced(turn_[g] - across(s));
+          pending.push_back(h);
+        }
+      }
     }
-    for (int f = 0; f < count(); ++f) cell_[f] = root(f);
   }
 
   // An open cell is a disk if and only if its Euler characteristic is 1: its pieces, less the sides between them, plus
@@ -120,7 +154,7 @@ class Joining {
     std::vector<char> visited(twin_.size(), 0);
     for (int s = 0; s < std::ssize(twin_); ++s) {
       if (visited[s] || !is_wall(s) || is_broken_[cell_[piece_[s]]]) continue;
-      int length = 0, at = s;
+      int length = 0, at = s, turn = 0;
       bool is_simple = true;
       do {
         const int node = p_.side_nodes[at];
@@ -128,7 +162,7 @@ class Joining {
         seen[node] = s;
         visited[at] = 1;
         ++length;
-        at = next_wall(at);
+        at = next_wall(at, turn);
       } while (at != s);
       if (!is_simple || length < 3) is_broken_[cell_[piece_[s]]] = 1;
     }
@@ -184,24 +218,36 @@ class Joining {
       if (visited[s] || !is_wall(s)) continue;
       const int cell = cell_[piece_[s]];
       const auto& tile = p_.tiles[cell];
-      int at = s;
+      const int start = turn_[piece_[s]] - turn_[cell];
+      int at = s, turn = start;
       do {
         visited[at] = 1;
-        const auto& own = p_.tiles[piece_[at]];
-        Point point = p_.side_points[at];
-        // From the chart of the piece to that of the cell: between them lie whole tiles.
-        for (int x = 0; x < 2 && p_.poles[cell] == kNone; ++x) point[x] += static_cast<double>(tile[x] - own[x]);
         cells.corner_vertices.push_back(p_.side_nodes[at]);
-        cells.corner_points.push_back(point);
-        at = next_wall(at);
+        cells.corner_points.push_back(point(at, turn, cell));
+        at = next_wall(at, turn);
       } while (at != s);
       cells.offsets.push_back(static_cast<int>(cells.corner_vertices.size()));
       cells.tiles.push_back(tile);
       cells.poles.push_back(p_.poles[cell]);
       cells.is_whole.push_back(!is_broken_[cell]);
+      cells.turns.push_back(p_.group.reduced(turn - start));
     }
     number_vertices(cells);
     return cells;
+  }
+
+  // The start of a side in the chart of a cell. That of its piece is turned against it, and between them lie whole
+  // tiles: the middle of the tile is the same in both.
+  Point point(int side, int turn, int cell) const {
+    const Point& at = p_.side_points[side];
+    if (p_.poles[cell] != kNone) return at;
+    const auto middle = [&](int piece) {
+      const auto& [column, row] = p_.tiles[piece];
+      return Eigen::Vector2d(static_cast<double>(column) + p_.middle[0], static_cast<double>(row) + p_.middle[1]);
+    };
+    const Eigen::Matrix2d& power = p_.group.power(turn);
+    const Eigen::Vector2d moved = power * Eigen::Vector2d(at[0], at[1]) + (middle(cell) - power * middle(piece_[side]));
+    return {moved[0], moved[1]};
   }
 
   // Numbers the nodes at walls. One with two walls lies on a side of cells, and may be left out.
@@ -230,7 +276,7 @@ class Joining {
   const Pieces& p_;
   std::vector<char> is_wall_;
   std::vector<int> piece_, twin_;  // #S; the side of the other piece on the same segment
-  std::vector<int> cell_;          // #P
+  std::vector<int> cell_, turn_;   // #P; from the chart of the piece to that of its cell
   std::vector<char> is_broken_;    // #P: cells that are not disks with a simple outline
 };
 

@@ -15,6 +15,7 @@ struct Cells {
   std::vector<std::array<std::int64_t, 2>> tiles;  ///< #F
   std::vector<int> poles;                          ///< #F the pole whose star a polygon is, or -1
   std::vector<char> is_whole;                      ///< #F: a whole cell, not a part of one
+  std::vector<int> turns;                          ///< #F: once around it, where a cone lies in it; else 0
 };
 
 /// Joins the pieces of each tile to a polygon, and so the triangles of each pole's star. A tile may have a hole, or

@@ -30,9 +30,4 @@ EdgeNodes edge_nodes(const mesh::Surface& surface, const TileCoordinates& coordi
 /// Returns the code of a point, whose coordinates are integers.
 Code code_of(const Point& point, double unit);
 
-/// The difference, in whole tiles, of coordinates in one triangle and in another, at a corner of each.
-inline Code jump_between(const Point& from, const Point& to, double unit) {
-  return {static_cast<std::int64_t>((to[0] - from[0]) / unit), static_cast<std::int64_t>((to[1] - from[1]) / unit)};
-}
-
 }  // namespace holomorph::tiles

@@ -65,6 +65,7 @@ class Cutting {
       }
       pieces.side_nodes.push_back(corner.node);
       pieces.side_segments.push_back(corner.segment);
+      pieces.side_turns.push_back(cut.turn(corner.segment));
       pieces.side_points.push_back(corner.at);
       // In the star of a pole only the link is a wall: its triangles become one polygon.
       const bool is_link = pole != kNone && corner.node != pole && next.node != pole;
@@ -92,6 +93,7 @@ void append(Pieces& all, const Part& part, const Cutting& cutting, int& segments
   for (std::size_t p = 1; p < part.pieces.offsets.size(); ++p)
     all.offsets.push_back(first_side + part.pieces.offsets[p]);
   const auto join = [](auto& list, const auto& more) { list.insert(list.end(), more.begin(), more.end()); };
+  join(all.side_turns, part.pieces.side_turns);
   join(all.side_points, part.pieces.side_points);
   join(all.tiles, part.pieces.tiles);
   join(all.poles, part.pieces.poles);
@@ -133,6 +135,8 @@ Pieces pieces(const mesh::Surface& surface, const TileCoordinates& coordinates, 
                [&](int chunk) { parts[chunk] = cutting.part(chunk * kChunk, std::min((chunk + 1) * kChunk, count)); });
   Pieces all;
   all.nodes = edge_locations(surface, edge_nodes);
+  all.group = coordinates.group;
+  if (pattern == Pattern::bricks) all.middle[0] = 1;
   int segments = edge_nodes.offsets.back() + static_cast<int>(surface.edges.size());
   for (const Part& part : parts) append(all, part, cutting, segments);
   all.is_wall.assign(segments, 0);

@@ -26,10 +26,13 @@ struct Pieces {
   Locations nodes;                                 ///< the vertices first
   std::vector<int> offsets{0};                     ///< #P + 1
   std::vector<int> side_nodes, side_segments;      ///< #S
+  std::vector<int> side_turns;                     ///< #S turn from the triangle to the first one at the side's edge
   std::vector<Point> side_points;                  ///< #S tile coordinates of the node in the triangle
   std::vector<std::array<std::int64_t, 2>> tiles;  ///< #P cells of the pattern, in the triangle
   std::vector<int> poles;                          ///< #P the pole in a piece, or -1
   std::vector<char> is_wall;                       ///< of each segment: on a line, the boundary or the star of a pole
+  mesh::TurnGroup group;                           ///< in tile coordinates
+  Point middle{0.5, 0.5};                          ///< of a cell, from its tile on
 };
 
 /// Cost: linear in triangles and pieces.

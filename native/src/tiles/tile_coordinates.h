@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "base/double_double.h"
 #include "base/execution.h"
+#include "mesh/corner_turns.h"
 #include "mesh/surface.h"
 
 namespace holomorph::tiles {
@@ -36,6 +38,8 @@ struct TileFrame {
   Eigen::Matrix2d inverse_lattice;  ///< A^-1, the columns of A the translations by which UVs may jump
   Eigen::Vector2d origin;           ///< in units of the lattice
   Eigen::Matrix2i steps;            ///< N; a row of it may be 0 where one coordinate is enough
+  /// k, where UVs also turn by 2 pi / k: 2 or 4. Then N is as the turns leave it, and 2 N origin is whole.
+  int turns = 1;
 };
 
 struct TileCoordinates {
@@ -43,16 +47,32 @@ struct TileCoordinates {
   Array<std::array<Point, 3>> points;  ///< #T, of the triangles' corners, in integers; jumps are multiples of the unit
   std::vector<char> is_pole;           ///< #V: vertices around which the UVs do not close up by whole tiles
   bool is_mirrored = false;            ///< most of the area is clockwise
+  mesh::TurnGroup group;               ///< in tile coordinates
+  mesh::CornerTurns turns;
+};
+
+/// From tile coordinates in one triangle to those in another: x' = R^turn x + translation, in whole tiles.
+struct Transition {
+  int turn = 0;
+  std::array<std::int64_t, 2> translation{};
 };
 
 /// Computes the tile coordinates. Each vertex is rounded once, and moved by the jumps: so it has the same place in all
-/// its triangles, up to whole tiles.
+/// its triangles, up to turns and whole tiles. A cone lies at a centre of turns.
 /// @param uv #C x 2
 /// @throws TopologyError where UVs are not those of a tiling, naming the place: not finite, too large, a jump that is
 /// no whole number of tiles, or one that differs at the two ends of an edge. SolverError for more tiles than memory is
 /// meant for
 TileCoordinates tile_coordinates(const mesh::Surface& surface, const Eigen::Ref<const Corners>& uv,
                                  const TileFrame& frame, Execution& execution);
+
+/// From a triangle to another one whose coordinates are turned against it. @param from, to a point in both
+inline Transition transition(const TileCoordinates& coordinates, int turn, const Point& from, const Point& to) {
+  const Eigen::Vector2d turned = coordinates.group.power(turn) * Eigen::Vector2d(from[0], from[1]);
+  return {turn,
+          {static_cast<std::int64_t>((to[0] - turned[0]) / coordinates.unit),
+           static_cast<std::int64_t>((to[1] - turned[1]) / coordinates.unit)}};
+}
 
 /// Twice the signed area of triangle t, in squares of the unit, positive as most are; exactly 0 where it is.
 inline double signed_area(const TileCoordinates& coordinates, int t) {

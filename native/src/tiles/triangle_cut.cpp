@@ -47,8 +47,17 @@ Piece TriangleCut::outline(int t) const {
   return ring;
 }
 
+int TriangleCut::turn(int segment) const {
+  for (int i = 0; i < 3; ++i) {
+    const int e = surface_.triangle_edges[triangle_][i];
+    const bool is_on_edge = segments(e) <= segment && segment < segments(e + 1);
+    if (is_on_edge && edge_nodes_.sides[e] != 3 * triangle_ + i) return coordinates_.turns.across(3 * triangle_ + i);
+  }
+  return 0;
+}
+
 // Appends the nodes of side i, and names its segments from the last corner on. An edge lists its nodes along the side
-// of its first triangle; seen from the other one they are reversed, and moved by the jump.
+// of its first triangle; seen from the other one they are reversed, and moved by the transition.
 void TriangleCut::append_side(int t, int i, Piece& ring) const {
   const int e = surface_.triangle_edges[t][i], begin = edge_nodes_.offsets[e], end = edge_nodes_.offsets[e + 1];
   const int first = edge_nodes_.sides[e] / 3, side = edge_nodes_.sides[e] % 3, count = end - begin;
@@ -57,16 +66,22 @@ void TriangleCut::append_side(int t, int i, Piece& ring) const {
   if (count == 0) return;
   const double unit = coordinates_.unit;
   const Point &a = coordinates_.points[first][side], &b = coordinates_.points[first][(side + 1) % 3];
-  const Code jump = jump_between(b, coordinates_.points[t][along ? (i + 1) % 3 : i], unit);
+  const auto [turn, translation] = transition(coordinates_, along ? 0 : coordinates_.turns.across(3 * first + side), b,
+                                              coordinates_.points[t][along ? (i + 1) % 3 : i]);
+  const Eigen::Matrix2d& power = coordinates_.group.power(turn);
   for (int j = 0; j < count; ++j) {
     const int k = along ? j : count - 1 - j;
     const Code& here = edge_nodes_.codes[begin + k];
     PieceCorner corner{surface_.vertex_count + begin + k, segments(e) + (along ? k + 1 : k), {}, {}};
+    Eigen::Vector2d place;
+    for (int x = 0; x < 2; ++x) place[x] = (a[x] + edge_nodes_.weights[begin + k] * (b[x] - a[x])) / unit;
+    place = power * place;
     for (int x = 0; x < 2; ++x) {
-      corner.code[x] = here[x] + 2 * jump[x];
-      const double between = (a[x] + edge_nodes_.weights[begin + k] * (b[x] - a[x])) / unit;
+      // Codes are 2 x where x is whole, and lie halfway between others: they turn as x does.
+      const double code = power(x, 0) * static_cast<double>(here[0]) + power(x, 1) * static_cast<double>(here[1]);
+      corner.code[x] = static_cast<std::int64_t>(code) + 2 * translation[x];
       // On a line the coordinate is exact, not that of the rounded place on the edge.
-      corner.at[x] = is_line(corner.code[x]) ? middle(corner.code[x]) : between + static_cast<double>(jump[x]);
+      corner.at[x] = is_line(corner.code[x]) ? middle(corner.code[x]) : place[x] + static_cast<double>(translation[x]);
     }
     ring.push_back(corner);
   }

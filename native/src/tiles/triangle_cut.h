@@ -43,6 +43,8 @@ class TriangleCut {
   int segment_count() const { return segment_count_; }
   int segments(int edge) const { return edge_nodes_.offsets[edge] + edge; }
   bool has_pole(int t) const;
+  /// The turn from the triangle that was cut to the first one at the edge of the segment; 0 for one inside.
+  int turn(int segment) const;
 
   /// Whether the segment from one corner to the next lies on a line.
   bool is_on_line(const PieceCorner& from, const PieceCorner& to) const {

@@ -3,27 +3,14 @@
 import families
 import numpy as np
 import pytest
-from holomorph import Surface, TiledSurface
+from cell_checks import as_surface, assert_same_topology, inside, polygon_areas
+from holomorph import TiledSurface
 from solved import surface_of
 from tiled_families import CASES, MORE, renumbered, same_points, tiled, tiling
 from tiled_grids import flat_square, folded_torus, grid_torus, torus_uv
 
 EXACT = 1e-9  # of a tile
 everywhere = pytest.mark.parametrize("name", CASES | MORE)
-
-
-def as_surface(cells):
-    """A surface of the polygons, checked: no vertex twice in a polygon, no edge or vertex that is not manifold."""
-    return Surface.from_polygons(cells.vertices, cells.corner_vertices, cells.face_offsets)
-
-
-def assert_same_topology(cells, surface):
-    made = as_surface(cells)
-    assert made._native.component_count == surface._native.component_count
-    assert made.euler_characteristic == surface.euler_characteristic
-    assert made.boundary_count == surface.boundary_count
-    assert not len(made.repairs.reversed_faces) and not len(made.repairs.isolated_vertices)
-    assert len(cells.uv) == len(cells.is_corner) == len(cells.corner_vertices)
 
 
 def test_several_components_and_other_options():
@@ -35,17 +22,6 @@ def test_several_components_and_other_options():
         one.cells(shifted_rows=True)
     with pytest.raises(ValueError, match="per_tile has 0"):
         one.cells(per_tile=(0, 1))
-
-
-def inside(cells, uv):
-    return np.linalg.solve(cells.tiled.lattice, uv.T).T
-
-
-def polygon_areas(cells):
-    """(#F,) signed, in tiles."""
-    x, y = inside(cells, cells.uv).T
-    follow = cells._following
-    return np.add.reduceat(x * y[follow] - x[follow] * y, cells.face_offsets[:-1]) / 2
 
 
 def area_outside_of_stars(on):

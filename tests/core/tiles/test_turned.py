@@ -5,44 +5,9 @@ import pickle
 import families
 import numpy as np
 import pytest
-from holomorph import Surface, TiledSurface, TopologyError, automatic_map
+from holomorph import TiledSurface, TopologyError, automatic_map
 from solved import surface_of
-
-SHAPES = {"cube": (4, 6), "pillow": (2, 2)}  # turns, faces of the box
-WAYS = [((0, 1, 2), 1), ((0, 1, 2), -1), ((1, 2, 0), 1), ((1, 2, 0), -1), ((2, 0, 1), 1), ((2, 0, 1), -1)]
-
-
-def square(count):
-    """((V, 2) points of a unit square, (F, 4) its faces), counter-clockwise."""
-    i, j = np.meshgrid(np.arange(count + 1), np.arange(count + 1), indexing="ij")
-    a = (i * (count + 1) + j)[:-1, :-1].ravel()
-    return np.stack([i, j], axis=-1).reshape(-1, 2) / count, np.stack([a, a + count + 1, a + count + 2, a + 1], axis=1)
-
-
-def box(shape, tiles, shift, count=7):
-    """(surface, uv) of a box whose faces have this number of tiles along each side; a pillow is a flat one with two
-    faces. Its edges lie on lines of the tiling, or, with a shift of a half, between them."""
-    flat, faces = square(count)
-    points, uvs, corners = [], [], []
-    for k, (axes, side) in enumerate(WAYS if shape == "cube" else WAYS[:2]):
-        local = flat if side > 0 else np.array([1, 0]) + flat * (-1, 1)  # seen from outside, counter-clockwise
-        at = np.full((len(flat), 3), (1 + side) / 2)
-        at[:, axes[0]], at[:, axes[1]] = local.T
-        if shape == "pillow":
-            at[:, 2] = np.where((np.abs(local - 0.5) == 0.5).any(axis=1), 0.0, side * 1e-3)
-        corners.append(faces + k * len(flat))
-        points.append(at)
-        uvs.append(flat * tiles + shift)
-    points, uvs, corners = map(np.concatenate, (points, uvs, corners))
-    found, index = np.unique(np.round(points, 9), axis=0, return_inverse=True)
-    return Surface(found, index.ravel()[corners]), uvs[corners.ravel()]
-
-
-def tiled(shape, tiles, shift=0.0, **options):
-    return TiledSurface(*box(shape, tiles, shift), turns=SHAPES[shape][0], **options)
-
-
-MADE = {"ball": families.geodesic_sphere(12, jitter=0.2, seed=1), "torus": families.torus(40, 24, jitter=0.1, seed=2)}
+from turned_surfaces import MADE, SHAPES, angles, box, signed_area, tiled
 
 
 @pytest.fixture(scope="module", params=[("ball", 2), ("ball", 4), ("ball", 6), ("torus", 2), ("torus", 4)])
@@ -80,20 +45,6 @@ def test_lines_go_around(shape, tiles):
             assert np.ptp(points[:, axis]) < 1e-9
             around = np.roll(points, -1, axis=0) - points
             assert np.linalg.norm(around, axis=1).sum() == pytest.approx(4 if shape == "cube" else 2, abs=0.02)
-
-
-def angles(on):
-    """(#V,) around each vertex in the map, in full turns."""
-    triangles, total = on.surface.triangles, np.zeros(len(on.surface.vertices))
-    uv = on.uv[on.surface.triangle_corners] @ [1, 1j]
-    for k in range(3):
-        np.add.at(total, triangles[:, k], np.angle((uv[:, k - 1] - uv[:, k]) / (uv[:, k - 2] - uv[:, k])))
-    return total / 2 / np.pi
-
-
-def signed_area(on):
-    a, b = (on.uv[on.surface.triangle_corners[:, k]] - on.uv[on.surface.triangle_corners[:, 0]] for k in (1, 2))
-    return (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2 / np.linalg.det(on.lattice)
 
 
 @pytest.mark.parametrize("per_tile", [1, 4])
@@ -160,12 +111,11 @@ def test_shifted_rows_that_half_turns_leave():
     assert len(found) == 2 * 4 * 4
 
 
-def test_what_is_not_made_yet():
-    on = tiled("cube", 2)
-    with pytest.raises(TopologyError, match="cells cannot be made on a tiling that turns yet"):
-        on.cells()
-    with pytest.raises(TopologyError, match="a relief cannot be made on a tiling that turns yet"):
-        on.relief(np.eye(4), 0.01)
+def test_what_sixth_turns_do_not_leave():
+    made = automatic_map(surface_of(families.geodesic_sphere(6)), main="seamless", turns=6)
+    for thing, make in (("cells", made.tiled.cells), ("a relief", lambda: made.tiled.relief(np.eye(4), 0.01))):
+        with pytest.raises(TopologyError, match=f"{thing} cannot be made where tiles turn by sixths"):
+            make()
 
 
 def test_wrong_turns():

@@ -246,12 +246,6 @@ def test_it_can_be_cancelled():
         automatic_structure(ball).tile(turns=4, progress=lambda _fraction, stage: stage != "cones")
 
 
-def test_cells_are_refused_in_words():
-    made = automatic_map(surface_of(families.geodesic_sphere(5)), main="seamless", turns=4)
-    with pytest.raises(TopologyError, match="cells cannot be made on a tiling that turns yet: take turns=1"):
-        made.tiled.cells()
-
-
 def test_the_hexagons_of_a_ball():
     """Twelve cones of five sixths, as on a football."""
     made = tiling(surface_of(families.geodesic_sphere(6)), 6, tiles=200.0)
