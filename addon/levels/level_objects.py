@@ -10,7 +10,7 @@ from .. import compatibility, native
 from ..results import report, stored, tags
 from ..results.write import WriteOptions
 from ..results.write import write as write_maps
-from ..scene import mesh_io, targets
+from ..scene import mesh_io, targets, uv_maps
 from ..writing import transaction
 from . import transfer
 from .levels import LevelsWork
@@ -133,24 +133,21 @@ def _transfer_weights(context, obj, made):
         bpy.data.objects.remove(bare)
 
 
-def why_not(obj):
-    """Why levels of an object would show seams, or "". Where edges collapse, UVs are moved, but not turned."""
-    return "" if stored.turns(obj.get(report.PROPERTY)) == 1 else stored.TURNED_MAP
-
-
 class Source:
     """The object as it was when the work began."""
 
     def __init__(self, obj):
         (self.target,) = targets.collect([obj])
-        self.refused = self.target.refused or why_not(obj)
+        self.refused = self.target.refused
         self._data = None if self.refused else transfer.read(obj.data, self.target.polygons)
+        self._main, self._turns = uv_maps.main_map(obj.data), stored.turns(obj.get(report.PROPERTY))
 
     def work(self, options, progress=None):
         """The `LevelsWork`."""
         (task,) = targets.tasks([self.target])
         needs_map = not set(self._data.own_maps) & set(self._data.maps)
-        return LevelsWork(task, self._data.maps, self._data.uv, needs_map, options, progress)
+        turns = [self._turns if name == self._main else 1 for name in self._data.maps]
+        return LevelsWork(task, self._data.maps, self._data.uv, turns, needs_map, options, progress)
 
     def write(self, step, work, presentation, time_has_passed=False):
         """(objects of the levels, sentences about the map that they needed), or the one sentence why there are none.

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .. import native
 from ..maps import mapped
 from ..maps.mapped import BALANCED, MapOptions
 from ..native import holomorph
@@ -41,6 +42,7 @@ class LevelsWork(jobs.Work):
     task: object  # jobs.Task
     names: list  # names of the maps that are transferred
     uv: np.ndarray  # (#C, m, 2), in the order of the polygons' corners
+    turns: list  # of each map
     needs_map: bool
     options: LevelOptions
     progress: object = None
@@ -60,12 +62,15 @@ class LevelsWork(jobs.Work):
         if not self.names:
             return
         collapsed = start + (1 - start) * COLLAPSE_PART
-        mesh = holomorph.ProgressiveMesh(surface, progress=self.watch.part(start, collapsed))
+        levels = native.module("levels.levels")
+        cones = [levels.cones(surface, self.uv[:, k], turns) for k, turns in enumerate(self.turns) if turns != 1]
+        kept = np.concatenate([np.empty(0, np.int64), *cones])
+        mesh = holomorph.ProgressiveMesh(surface, kept=kept, progress=self.watch.part(start, collapsed))
         counts = self.options.counts(len(surface.triangles))
         if not self.watch(collapsed, "levels of detail"):
             raise holomorph.Cancelled("cancelled before the levels of detail")
         made, before = [], len(surface.triangles)
-        for level in mesh.levels_of_detail(self.uv, counts):
+        for level in mesh.levels_of_detail(self.uv, counts, turns=self.turns):
             if len(level.surface.triangles) < before:
                 made.append(level)
                 before = len(level.surface.triangles)
@@ -75,5 +80,5 @@ class LevelsWork(jobs.Work):
         """Bit for bit the one that is written to the object as well."""
         if self.mapped.done:
             name, values = next(self.mapped.maps())
-            self.names = [*self.names, name]
+            self.names, self.turns = [*self.names, name], [*self.turns, 1]
             self.uv = np.concatenate([self.uv, values[:, None].astype(np.float64)], axis=1)

@@ -85,15 +85,12 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
 
     def prepare(self, context):
         from .. import compatibility
-        from ..results import report, stored
         from ..scene import gathering, uv_maps
 
         taking, given = gathering.active_first(context, gathering.selected_meshes(context))
         layer = given.data.uv_layers.active
         if layer is None:
             raise ValueError(f"{given.name} has no UV map")
-        if layer.name == uv_maps.main_map(given.data) and stored.turns(given.get(report.PROPERTY)) != 1:
-            raise ValueError(f"{given.name}: {stored.TURNED_MAP}")
         reason = gathering.why_fixed(taking)
         if reason:
             raise ValueError(f"{taking.name}: {reason}")

@@ -61,22 +61,17 @@ class OnTiling(WorkOperator):
     write(step, obj, found) : makes objects of what was found on the parts; the sentence that tells of it
     """
 
-    may_turn = True  # whether it can be made where sides of cuts turn
-
     @classmethod
     def why_not(cls, context):
         obj = context.view_layer.objects.active
         return "" if obj is not None and obj.type == "MESH" else "Make a mesh object active"
 
     def prepare(self, context):
-        from ..results import stored
         from ..things import geometry
 
         obj = context.view_layer.objects.active
         self._name = obj.name, obj.library.filepath if obj.library else None
         self._source = geometry.source(obj)
-        if self._source[-1] != 1 and not self.may_turn:
-            raise ValueError(f"{obj.name}: {stored.TURNED_MAP}")
 
     def make_work(self, progress):
         from ..things import parts
@@ -206,7 +201,6 @@ class HOLOMORPH_OT_cells(OnTiling, bpy.types.Operator):
 
     bl_idname = "object.holomorphic_cells"
     bl_label = "Cut along Tiling"
-    may_turn = False
 
     columns: IntProperty(name="Columns", description=ABOUT["columns"], default=2, min=1, soft_max=16, max=1000)
     rows: IntProperty(

@@ -58,6 +58,8 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
             self._heights = relief.heights_of(image_io.read_file_values(image), relief.channel_weights(image))
         except ValueError as error:
             raise ValueError(f"{image.name}: {error}") from error
+        if image == shown:
+            self._heights = relief.about_centre(self._heights, obj.active_material)
         self._millimetres = _millimetres(context.scene.unit_settings)
         self._is_turned = geometry.is_mirrored(obj)
 

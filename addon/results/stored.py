@@ -51,9 +51,6 @@ def cones(stored):
     return np.array([vertex for tiling in tilings(stored) for vertex in tiling.get("cones", [])], np.int64)
 
 
-TURNED_MAP = "its map turns, and this is made of maps that do not: set Turns to None"
-
-
 def turns(stored):
     """2, 4 or 6 where tilings turn by this part of a full turn; else 1."""
     return max((tiling.get("turns", 1) for tiling in tilings(stored)), default=1)

@@ -19,6 +19,7 @@ class CutMesh:
     face_offsets: np.ndarray  # (#F + 1,)
     uv: np.ndarray  # (#C, 2)
     faces: dict  # name: (#F,) of each
+    is_corner: np.ndarray  # (#C,) of a tile
 
     @property
     def irregular(self):
@@ -30,14 +31,17 @@ class CutMesh:
         ends = sides[first]
         edges = np.bincount(ends.ravel(), minlength=len(self.vertices))
         edges[ends[count == 1].ravel()] = REGULAR  # on the border
-        return int(np.count_nonzero((edges != REGULAR) & (edges != 2)))
+        is_needed = edges != 2
+        is_needed[self.corner_vertices[self.is_corner]] = True
+        return int(np.count_nonzero((edges != REGULAR) & is_needed))
 
     def mirrored(self):
         """The same polygons the other way round."""
         starts, ends = self.face_offsets[:-1], self.face_offsets[1:]
         corners = np.arange(len(self.corner_vertices))
         back = np.repeat(starts + ends - 1, ends - starts) - corners
-        return CutMesh(self.vertices, self.corner_vertices[back], self.face_offsets, self.uv[back], self.faces)
+        turned = self.corner_vertices[back], self.face_offsets, self.uv[back], self.faces, self.is_corner[back]
+        return CutMesh(self.vertices, *turned)
 
 
 def found(tiled, per_tile, shifted, is_simple):
@@ -58,4 +62,5 @@ def joined(cells):
         np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32),
         np.concatenate([one.uv for one in cells]),
         {"tile_u": tiles[:, 0], "tile_v": tiles[:, 1], "is_quad": np.concatenate([one.is_quad for one in cells])},
+        np.concatenate([one.is_corner for one in cells]),
     )

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The surface of an object raised by a picture that repeats in its tiles. No bpy here: it runs in a worker thread."""
 
+import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from .. import native
 from ..materials import textures
-from ..materials.nodes import REPEATS_NODE
+from ..materials.nodes import CENTRE_NODE, REPEATS_NODE
 from ..native import holomorph
 from . import parts
 
@@ -25,6 +26,21 @@ def shown_heights(material):
             repeats = tree.nodes.get(REPEATS_NODE)
             return image, round(repeats.outputs[0].default_value) if repeats else 1
     return None, 1
+
+
+def about_centre(heights, material):
+    """(h, w) heights as the material moves its images: with the centre of their turns at the corners. Parts of pixels
+    are linear between them."""
+    node = material.node_tree.nodes.get(CENTRE_NODE)
+    if node is None:
+        return heights
+    u, v, _ = node.inputs[1].default_value
+    for axis, pixels in ((0, v * heights.shape[0]), (1, -u * heights.shape[1])):  # the top row is the first
+        whole = math.floor(round(pixels, 3))
+        part = round(pixels, 3) - whole
+        moved = (np.roll(heights, whole + k, axis) for k in (0, 1))
+        heights = (1 - part) * next(moved) + part * next(moved)
+    return heights
 
 
 def channel_weights(image):

@@ -537,8 +537,10 @@ def test_irregular_vertices_are_counted():
     """A cube has eight corners of three edges, a sheet has none."""
     offsets = np.arange(0, 25, 4)
     cube = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
-    made = cut.CutMesh(np.zeros((8, 3)), np.ravel(cube), offsets, np.zeros((24, 2)), {})
+    made = cut.CutMesh(np.zeros((8, 3)), np.ravel(cube), offsets, np.zeros((24, 2)), {}, np.ones(24, bool))
     assert made.irregular == 8 and made.mirrored().irregular == 8
     vertices, faces = grid_arrays(3)
-    sheet = cut.CutMesh(vertices, np.ravel(faces), np.arange(0, 4 * len(faces) + 1, 4), np.zeros((0, 2)), {})
+    corners = np.ravel(faces)
+    ends = np.arange(0, len(corners) + 1, 4)
+    sheet = cut.CutMesh(vertices, corners, ends, np.zeros((0, 2)), {}, np.zeros(len(corners), bool))
     assert sheet.irregular == 0

@@ -8,6 +8,7 @@ from loaded_addon import module
 from scenes import (
     everything,
     mesh_object,
+    polygon_arrays,
     run,
     select,
     sphere_arrays,
@@ -308,27 +309,66 @@ def test_poles_of_a_turned_map(options):
         assert tile(**options) == {"FINISHED"} and [one["turns"] for one in tilings(obj)] == [1]
 
 
-@pytest.mark.parametrize("operator", ["relief", "cells", "levels"])
-def test_what_needs_tiles_that_are_only_shifted_says_so(operator):
+@pytest.mark.parametrize("turns", [2, 4])
+@pytest.mark.parametrize("shape", [ball, torus])
+def test_all_is_cut_into_quads(shape, turns):
+    """By the centres of turns, which are corners of half tiles: the cones, and no others, have another number."""
+    obj = shape()
+    tile(turns=NAMES[turns], tiles=100)
+    bpy.ops.object.holomorphic_cells(columns=2, rows=2, simple=True)
+    (made,) = [one for one in bpy.data.objects if one.get("holomorph_cells_of") == obj.name]
+    mesh, cones = made.data, [cone for one in tilings(obj) for cone in one["cones"]]
+    assert {len(face.vertices) for face in mesh.polygons} == {4}
+    assert len(mesh.vertices) - len(mesh.edges) + len(mesh.polygons) == (2 if shape is ball else 0)
+    edges = np.bincount(np.array([edge.vertices[:] for edge in mesh.edges]).ravel())
+    angles = [angle for one in tilings(obj) for angle in one["cone_angles"]]
+    assert sorted(edges[edges != 4]) == sorted(np.rint(4 * np.array(angles)).astype(int))
+    points = np.array([vertex.co for vertex in mesh.vertices])[edges != 4]
+    places = np.array([obj.data.vertices[cone].co for cone in cones])
+    assert np.linalg.norm(points[:, None] - places, axis=2).min(axis=1).max() < 1e-6
+    cut = module("things.cut")
+    corners, offsets = polygon_arrays(mesh)
+    told = cut.CutMesh(np.zeros((len(mesh.vertices), 3)), corners, offsets, None, {}, np.ones(len(corners), bool))
+    assert told.irregular == len(cones)
+
+
+@pytest.mark.parametrize(("turns", "texture"), [(2, "BRICKS"), (4, "WEAVE")])
+def test_a_relief_closes_up(turns, texture):
     obj = ball()
-    tile(turns="QUARTER")
-    before = everything(obj)
-    with pytest.raises(
-        RuntimeError, match="Ball: its map turns, and this is made of maps that do not: set Turns to None"
-    ):
-        getattr(bpy.ops.object, f"holomorphic_{operator}")()
-    assert everything(obj) == before
+    tile(turns=NAMES[turns], tiles=50, texture=texture)
+    assert bpy.ops.object.holomorphic_relief(most_triangles=20000) == {"FINISHED"}
+    (made,) = [one for one in bpy.data.objects if one.get("holomorph_relief_of") == obj.name]
+    edges = np.bincount([loop.edge_index for loop in made.data.loops])
+    assert (edges == 2).all() and len(made.data.polygons) > len(obj.data.polygons)
 
 
-def test_uvs_that_turn_are_not_carried():
-    given = torus()
+@pytest.mark.parametrize("turns", [2, 4])
+def test_levels_keep_turns_and_cones(turns):
+    """Every edge of a level fits exactly, up to a turn."""
+    obj = torus(around=48, across=24)
+    tile(turns=NAMES[turns])
+    cones = {tuple(obj.data.vertices[v].co) for one in tilings(obj) for v in one["cones"]}
+    assert bpy.ops.object.holomorphic_levels(levels=2) == {"FINISHED"}
+    levels = [one for one in bpy.data.objects if one.get("holomorph_levels_of") == obj.name and "LOD0" not in one.name]
+    assert len(levels) == 2
+    for level in levels:
+        assert cones <= {tuple(vertex.co) for vertex in level.data.vertices}
+        _, shift, off = turned_jumps(level, turns)
+        assert off.max() == 0 and np.array_equal(shift, np.round(shift))
+
+
+def test_uvs_that_turn_are_carried():
+    """Edges of the other torus fit, but those of the faces in which cones lie, whose edges they part."""
+    given = torus(around=48, across=24)
     tile(turns="QUARTER")
-    taking = torus("Other")
+    count = sum(len(one["cones"]) for one in tilings(given))
+    taking = torus("Other", around=40, across=28)
     select(taking, given)
-    before = everything(given), everything(taking)
-    with pytest.raises(RuntimeError, match="Torus: its map turns, and this is made of maps that do not"):
-        bpy.ops.object.holomorphic_carry()
-    assert (everything(given), everything(taking)) == before
+    assert bpy.ops.object.holomorphic_carry() == {"FINISHED"}
+    which, shift, off = turned_jumps(taking, 4)
+    bad = np.maximum(off, np.maximum(*(np.abs(part - np.round(part)) for part in (shift.real, shift.imag)))) > 1e-3
+    assert bad.sum() <= 4 * count < len(bad) / 10
+    assert len(np.unique(which[~bad])) == 4
 
 
 def things_of(obj, kind):
