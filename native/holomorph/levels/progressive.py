@@ -73,7 +73,7 @@ class ProgressiveMesh(Value):
         kind, data = "", b""
         if corner_data is not None:
             kind, data = arrays.packed(corner_data, len(surface.corner_vertices))
-        vertices = arrays.integer(kept if len(kept) else np.empty(0, np.int64), "kept")
+        vertices = arrays.integer(kept if np.size(kept) else np.empty(0, np.int64), "kept")
         if len(vertices) and not 0 <= vertices.min() <= vertices.max() < surface._native.vertex_count:
             raise InvalidMesh("kept names a vertex that is not in the surface")
         self._native = _native.ProgressiveMesh.make(surface._native, order, kind, data, vertices.tolist(), progress)
