@@ -234,6 +234,6 @@ MUTATIONS = (
     | of(ROOM + "mesh/stitching.cpp", ("slivers-as-others", "? 2 : 0;  // what", "? 0 : 0;  // what", SLIVERS))
     | of(ROOM + "islands/cuts_to_disks.cpp", ("paths-stop", "kShortest = 1e-12", "kShortest = 0", SLIVERS))
     | of(PACKAGE + "mesh/cut_open.py", ("paths-stop-at-places", "SHORTEST = 1e-12", "SHORTEST = 0.0", SLIVERS))
-    | of(PACKAGE + "cutting/hard_edges.py", ("slivers-own-normals", "[surface._native.sliver_owners()]", "", SLIVERS))
+    | of(PACKAGE + "mesh/hard_edges.py", ("slivers-own-normals", "[surface._native.sliver_owners()]", "", SLIVERS))
     | of(PACKAGE + "cutting/island_layout.py", ("same-place", "SAME = 1e-5", "SAME = 1e-6", SLIVERS))
 )

@@ -7,8 +7,8 @@ import numpy as np
 
 from .. import _native
 from ..mesh.cut_open import cut_open, on_border, paths_to_border
+from ..mesh.hard_edges import cuts_to_tips
 from ..mesh.surface import Surface
-from .hard_edges import cuts_to_tips
 
 STRETCHED = 2.5  # factor of lengths, from which on a piece is also tried with cuts to its cone points
 

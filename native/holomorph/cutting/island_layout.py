@@ -11,12 +11,12 @@ from .. import _native
 from ..core import arrays
 from ..core.array_types import Flags, Integers, Progress, Reals
 from ..core.value import Value, counted
+from ..mesh.hard_edges import seen
 from ..mesh.surface import Surface
 from ..packing.layout import pack
 from ..quality.appearance import HARD_SEAM, OVERLAPPING, OVERLAPS, ROUNDING, SEAM, cost
 from ..quality.overlap import overlapping_part
 from ..quality.quality import Quality
-from .hard_edges import seen
 from .island_cuts import Cuts, corner_pieces
 
 MARGIN = 0.02  # between islands, in sides of the square that they are packed into

@@ -12,10 +12,10 @@ from ..core import arrays
 from ..core.array_types import Progress
 from ..core.progress import scaled
 from ..mesh.checks import check_threads, check_type, checked_evenness
+from ..mesh.hard_edges import bends, curvature
 from ..mesh.surface import Surface
 from ..quality.appearance import HARD_SEAM, SEAM, cost
 from ..quality.quality import Quality
-from .hard_edges import bends, curvature
 from .island_cuts import Cuts, in_one_orientation
 from .island_layout import Flattened, Islands, visible_lengths
 

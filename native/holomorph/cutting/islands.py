@@ -9,8 +9,8 @@ from .._native import TopologyError
 from ..mesh.checks import check_type, real_number
 from ..mesh.cut_open import cut_open
 from ..mesh.edges import edge_keys
+from ..mesh.hard_edges import cuts_to_tips, is_hard
 from ..mesh.surface import Surface
-from .hard_edges import cuts_to_tips, is_hard
 
 
 def islands(

@@ -23,7 +23,7 @@ from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from ..tiling.tiling import Tiler
 from ..tiling.tilings import Poles, Tiling, asked_poles
-from ..tiling.turned import LATTICE, TurnedTiler, check_fits, checked_turns
+from ..tiling.turned import LATTICE, TurnedTiler, check_fits, checked_lines, checked_turns
 from .solver_report import Residuals, SolverReport
 
 PLACING = 0.6  # part of the work on a tiling, for finding the poles
@@ -113,6 +113,7 @@ class Structure(Value):
         allowed: ArrayLike | None = None,
         moves: Mapping[int, int] | None = None,
         turns: int = 1,
+        lines: str = "none",
         surface: Surface | None = None,
         progress: Progress | None = None,
     ) -> Tiling:
@@ -145,6 +146,8 @@ class Structure(Value):
         turns : 2, 4 or 6 where the texture looks the same after a half, a quarter or a sixth turn: then the two sides
             of a cut may turn, too. There are no poles; cones, where three or five squares meet, make the density more
             even. The choices of poles, lattice, turn, boundary and max_added do not go with it
+        lines : "free" for rows that run along long hard edges and smooth boundaries, "whole" for rows that end there as
+            well, where turns is 4, or 2 and the edges suit it; "none"
 
         Raises TopologyError for poles that do not fit, for fewer tiles than the surface needs (names how many are
         enough), and for more added distortion than `max_added` (names what can be had). Poles are kept.
@@ -152,11 +155,13 @@ class Structure(Value):
         evenness = checked_evenness(evenness)
         tiles = tiles if density is None else self._tiles_of(density, tiles)
         placing, rounding = scaled(progress, 0.0, PLACING), scaled(progress, PLACING, 1.0)
-        if (turns := checked_turns(turns)) != 1:
+        turns = checked_turns(turns)
+        lines = checked_lines(lines, turns)
+        if turns != 1:
             chosen = {"poles": (poles, "auto", 0), "turn": (turn, 0.0), "boundary": (boundary, "automatic")}
             chosen |= {"lattice": (lattice, "square", LATTICE.get(turns)), "max_added": (max_added,)}
             check_fits(chosen | {"allowed": (allowed,), "moves": (moves or None,)})
-            tiler = self._turned_tiler(surface, turns, direction, placing)
+            tiler = self._turned_tiler(surface, turns, direction, lines)
             key = tiler, tiles, evenness
             made = self._tilings.get(key) or tiler.tile(tiles, evenness=evenness, progress=rounding)
             return self._tilings.keep(key, made)
@@ -212,12 +217,12 @@ class Structure(Value):
             tiler = Tiler(surface, poles, **options, progress=progress)
         return self._tilers.keep(key, tiler)
 
-    def _turned_tiler(self, surface, turns, direction, progress):
+    def _turned_tiler(self, surface, turns, direction, lines):
         surface = self._component if surface is None else surface
-        key = surface, turns, _hashable(direction)
+        key = surface, turns, _hashable(direction), lines
         tiler = self._tilers.get(key)
         if tiler is None:
-            tiler = TurnedTiler(surface, turns, direction=direction, threads=self._threads)
+            tiler = TurnedTiler(surface, turns, direction=direction, lines=lines, threads=self._threads)
         return self._tilers.keep(key, tiler)
 
     @cached_property

@@ -13,10 +13,10 @@ from ..core import arrays
 from ..core.array_types import Integers, Progress
 from ..core.progress import scaled
 from ..core.value import counted
-from ..cutting.hard_edges import bends, seen
 from ..cutting.island_layout import Islands
 from ..cutting.island_map import HARD, SMOOTH
 from ..mesh.edges import boundary_edges, edge_keys
+from ..mesh.hard_edges import bends, seen
 from ..mesh.surface import Surface
 from ..quality.appearance import HARD_SEAM, TURN
 from ..quality.quality import Quality

@@ -9,11 +9,11 @@ import numpy as np
 
 from ..core import arrays
 from ..core.array_types import Flags, Integers, Reals
-from ..cutting.hard_edges import TIP, bends, curvature, seen
 from ..cutting.island_cuts import edges_between, in_one_orientation
 from ..cutting.island_layout import Islands
 from ..mesh.cut_open import cut_open
 from ..mesh.edges import around_boundary, boundary_edges, edge_keys
+from ..mesh.hard_edges import TIP, bends, curvature, seen
 from ..mesh.origin import Origin
 from ..mesh.surface import Surface
 from ..quality.appearance import cost

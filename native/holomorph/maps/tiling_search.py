@@ -17,7 +17,7 @@ from ..core.progress import scaled
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from ..tiling.tilings import Tiling, generators
-from ..tiling.turned import LATTICE
+from ..tiling.turned import LATTICE, LINED_TURNS, lines_of
 from .arrangement import on_grid
 from .automatic_structure import AnyStructure
 from .map import Map
@@ -38,6 +38,10 @@ ROUNDED = 0.9
 UNEVEN, MORE_POLES, MOST_POLES, FEW_TRIANGLES, MANY_TILES = 1.73, 2, 16, 5000, 60
 
 POOR_TURNED = 2.0  # cost of a tiling that turns, above which one that is only shifted is tried: most cost 0.7 to 1.8
+
+# What rows that run along hard edges, and end there, are worth in the cost, which does not see them; and the triangles
+# up to which they are tried: objects that are made of such edges have few.
+LINED, MOST_LINED = 0.3, 20_000
 
 MOST_TURNED = 0.5  # radians from the direction that is asked for, where no whole tiles of one size are nearer to it
 MOST_STRETCHED = 1.35  # factor: whole tiles around a limb, from three on, are never further from the wanted size
@@ -122,12 +126,28 @@ class TilingSearch:
             turned = self._with(self._request.poles, size, progress, turns=turns)
         except REFUSALS:
             return self._shifted(size, step)
+        if turns in LINED_TURNS and (lined := self._lined(turned, size, turns, step)):
+            return lined
         if turned.quality.lost_part == 0 and turned.cost < POOR_TURNED:
             return turned
         try:
             return min(turned, self._shifted(size, step), key=lambda each: each.cost)
         except REFUSALS:
             return turned
+
+    def _lined(self, turned, size, turns, progress):
+        """The tiling whose rows end at hard edges, or run along them, if it costs hardly more than the one that turns
+        and loses nothing; None if none does."""
+        if len(self.surface.triangles) > MOST_LINED or not len(lines_of(self.surface)):
+            return None
+        for lines in ("whole", "free"):
+            try:
+                made = self._with(self._request.poles, size, progress, turns=turns, lines=lines)
+            except REFUSALS:
+                continue
+            if made.quality.lost_part == 0 and made.cost < turned.cost + LINED:
+                return made
+        return None
 
     def _shifted(self, size, progress):
         """The one of least cost among those with the poles that are asked for, or, where that is left open, with as
@@ -174,9 +194,9 @@ class TilingSearch:
     def _has_tilings_without_poles(self):
         return self.surface.genus > 0 or self.surface.boundary_count > 1
 
-    def _with(self, poles, size, progress, turns=1):
+    def _with(self, poles, size, progress, turns=1, lines="none"):
         """Raises what `Structure.tile` raises; TopologyError where too much is lost."""
-        options = {**self._request.tiling, "moves": {}, **size, "turns": turns}
+        options = {**self._request.tiling, "moves": {}, **size, "turns": turns, "lines": lines}
         made = self._structure.tile(poles=poles, surface=self.surface, progress=progress, **options)
         lost = made.quality.lost_part
         if not lost < MOST_LOST:

@@ -10,9 +10,9 @@ import numpy as np
 from ..core.array_types import Progress
 from ..core.progress import scaled
 from ..core.value import counted
-from ..cutting.hard_edges import TIP, curvature, is_hard
 from ..cutting.island_layout import Islands
 from ..cutting.island_map import EVENED, HARD, IslandSearch, one_island
+from ..mesh.hard_edges import TIP, curvature, is_hard
 from ..mesh.surface import Surface
 from ..quality.appearance import cost
 from ..tiling.tilings import Tiling

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .. import _native
-from ..cutting.hard_edges import is_hard
+from ..mesh.hard_edges import is_hard
 
 LONGEST = 2.0  # of the vectors by which vertices are moved, for a height of 1: at sharper corners they are shorter
 SHARP = 29.0  # degrees, from which on an edge breaks the surface: those of a prism with twelve sides do

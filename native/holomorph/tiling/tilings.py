@@ -73,6 +73,7 @@ class Tiling(Value):
     cone_angles : (k,) these, in full turns: 3/4 where three squares meet
     jumps : (#S, 3) integers, of a tiling that turns: from the triangle on the left of a seam to that on its right the
         UVs are turned so many times, and moved by so much, in vectors of the lattice
+    lines : "free" where rows run along hard edges and smooth boundaries, "whole" where they end there, too; "none"
     """
 
     uv: Reals
@@ -93,6 +94,7 @@ class Tiling(Value):
     cones: Integers = field(default_factory=lambda: np.empty(0, np.int64))
     cone_angles: Reals = field(default_factory=lambda: np.empty(0))
     jumps: Integers = field(default_factory=lambda: np.empty((0, 3), np.int64))
+    lines: str = "none"
 
     def _facts(self):
         special = counted(len(self.poles), "pole") if self.turns == 1 else counted(len(self.cones), "cone")

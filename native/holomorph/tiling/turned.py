@@ -11,9 +11,10 @@ from numpy.typing import ArrayLike
 from .. import _native
 from .._native import TopologyError
 from ..core import arrays
-from ..core.array_types import Progress
+from ..core.array_types import Integers, Progress
 from ..core.value import quoted
 from ..mesh.checks import check_threads, checked_evenness, only_component, real_number
+from ..mesh.hard_edges import is_hard
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from .tilings import LATTICES, UPRIGHT, Rounding, Tiling, along
@@ -21,7 +22,10 @@ from .tilings import LATTICES, UPRIGHT, Rounding, Tiling, along
 TURNS = (1, 2, 4, 6)
 LATTICE = {2: "square", 4: "square", 6: "hex"}  # of which a turn by this part of a full one is a symmetry
 PRICE = 5e-4  # of a cone: what it is to take off the mean square of the logarithm of the scale
+LINED_TURNS = (2, 4)  # lines cross at right angles
 MOST_LOST = 0.5  # part of the area: nothing is left to look at
+LINES = ("none", "free", "whole")
+HARD = 40.0  # degrees by which a surface bends at an edge that is to be a line
 USUAL_TILES, TILES_PER_HANDLE = 400, 64  # by default, at least
 
 
@@ -34,6 +38,8 @@ class TurnedTiler:
     surface : Surface with positions, connected
     turns : 2, 4 or 6: the texture looks the same after a half, a quarter or a sixth turn
     direction : "upright" for rows that run level; a (3,) vector that u runs along, as far as it can; None for any
+    lines : "free" where rows are to run along long hard edges and smooth boundaries; "whole" where they are to end
+        there as well; "none"
     threads : as in `conformal_structure`
 
     Raises TopologyError for a surface without positions.
@@ -45,11 +51,13 @@ class TurnedTiler:
         turns: int,
         *,
         direction: ArrayLike | str | None = UPRIGHT,
+        lines: str = "none",
         threads: int | None = 0,
     ) -> None:
         self._surface, self._component, self._threads = surface, only_component(surface), check_threads(threads or None)
         vector, _ = along(direction, None, self._component)
         self._turns, self._tiles = turns, float(max(USUAL_TILES, TILES_PER_HANDLE * self._component.genus))
+        self._lines = lines
         self._maps = _native.TurnedMaps(
             self._component._native,
             turns=turns,
@@ -57,6 +65,8 @@ class TurnedTiler:
             direction=vector,
             is_of_u=not isinstance(direction, str),
             tiles=self._tiles,
+            lines=[] if lines == "none" else lines_of(self._component),
+            whole_lines=lines == "whole",
         )
 
     def tile(self, tiles: float | None = None, *, evenness: float = 0.0, progress: Progress | None = None) -> Tiling:
@@ -98,11 +108,27 @@ class TurnedTiler:
             cones=self._of_surface(cones),
             cone_angles=arrays.frozen(1 - missing / self._turns),
             jumps=arrays.frozen(jumps[:, 1:]),
+            lines=self._lines,
         )
 
     def _of_surface(self, vertices):
         same = self._component is self._surface
         return arrays.frozen(vertices if same else self._component.vertex_index[vertices])
+
+
+def lines_of(surface: Surface) -> Integers:
+    """The edges that lines of the lattice run along: long chains of hard edges, and smooth boundaries, ascending."""
+    return _native.long_lines(surface._native, np.flatnonzero(is_hard(surface, HARD)))
+
+
+def checked_lines(lines: Any, turns: int) -> str:
+    """Raises ValueError for anything but `LINES`, and for lines of a tiling that turns by other than quarters or
+    halves."""
+    if not isinstance(lines, str) or lines not in LINES:
+        raise ValueError(f"lines is {quoted(lines)}; one of {', '.join(LINES)} is needed")
+    if lines != "none" and turns not in LINED_TURNS:
+        raise ValueError(f"lines is {quoted(lines)}, for which turns must be 2 or 4")
+    return lines
 
 
 def checked_turns(turns: Any) -> int:

@@ -79,8 +79,8 @@ py::array evened(const mesh::Surface& surface, const Contiguous<double>& uv, std
   {
     const py::gil_scoped_release unlocked;
     execution.stage("evening", 0.0, 1.0);
-    result = evening::evened(surface, given, {std::move(poles), std::move(u), std::move(v), {}}, evenness, execution,
-                             solver);
+    result = evening::evened(surface, given, {std::move(poles), std::move(u), std::move(v), {}, {}}, evenness,
+                             execution, solver);
     execution.finish();
   }
   return give_matrix(std::move(result));

@@ -90,13 +90,7 @@ class Solvers {
 // The solver for functions that turn from corner to corner: u and v are unknowns of one system.
 class TurnedSolver {
  public:
-  TurnedSolver(const mesh::Surface& surface, const Kept& kept) : surface_(surface), kept_(kept) {
-    place_.assign(surface.vertex_count, 0);
-    for (const int v : kept.u) place_[v] = -1;
-    for (int& place : place_) {
-      if (place >= 0) place = count_++;
-    }
-  }
+  TurnedSolver(const mesh::Surface& surface, const Kept& kept) : surface_(surface), kept_(kept) {}
 
   void make(const Array<double>& edge_weights) {
     std::vector<Eigen::Triplet<double>> entries;
@@ -107,49 +101,23 @@ class TurnedSolver {
         if (done[edge]) continue;
         done[edge] = 1;
         const int j = (i + 1) % 3;
-        add(place_[surface_.triangles[t][i]], place_[surface_.triangles[t][j]], edge_weights[edge],
-            std::conj(kept_.turns[t][i]) * kept_.turns[t][j], entries);
+        kept_.unknowns.add_difference(surface_.triangles[t][i], surface_.triangles[t][j], edge_weights[edge],
+                                      std::conj(kept_.turns[t][i]) * kept_.turns[t][j], entries);
       }
     }
-    Eigen::SparseMatrix<double> lower(2 * count_, 2 * count_);
+    Eigen::SparseMatrix<double> lower(kept_.unknowns.count, kept_.unknowns.count);
     lower.setFromTriplets(entries.begin(), entries.end());
     factor_.compute(lower, {});
   }
 
   Function precondition(const Function& gradient) {
-    Eigen::MatrixXd b(2 * count_, 1);
-    for (std::size_t v = 0; v < gradient.size(); ++v) {
-      if (place_[v] >= 0) b(2 * place_[v], 0) = gradient[v].real(), b(2 * place_[v] + 1, 0) = gradient[v].imag();
-    }
-    const Eigen::MatrixXd x = factor_.solve(b);
-    Function result(gradient.size(), 0.0);
-    for (std::size_t v = 0; v < gradient.size(); ++v) {
-      if (place_[v] >= 0) result[v] = kInverse * Complex(x(2 * place_[v], 0), x(2 * place_[v] + 1, 0));
-    }
-    return result;
+    const Eigen::MatrixXd x = factor_.solve(Eigen::MatrixXd(kept_.unknowns.gathered(gradient)));
+    return kept_.unknowns.spread(kInverse * x.col(0));
   }
 
  private:
-  // weight |turn y_b - y_a|^2
-  static void add(int a, int b, double weight, Complex turn, std::vector<Eigen::Triplet<double>>& entries) {
-    for (const int v : {a, b}) {
-      if (v < 0) continue;
-      for (int i = 0; i < 2; ++i) entries.emplace_back(2 * v + i, 2 * v + i, weight);
-    }
-    if (a < 0 || b < 0 || a == b) return;
-    if (a < b) std::swap(a, b), turn = std::conj(turn);
-    const double x = -weight * turn.real(), y = -weight * turn.imag();
-    entries.emplace_back(2 * a, 2 * b, x);
-    entries.emplace_back(2 * a + 1, 2 * b + 1, x);
-    if (y == 0) return;
-    entries.emplace_back(2 * a, 2 * b + 1, -y);
-    entries.emplace_back(2 * a + 1, 2 * b, y);
-  }
-
   const mesh::Surface& surface_;
   const Kept& kept_;
-  std::vector<int> place_;  // #V, -1 where the function stays 0
-  int count_ = 0;
   solver::SparseCholesky factor_;
 };
 
@@ -196,7 +164,12 @@ double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, do
     }
     return here;
   };
-  const Kept here{{}, kept_here(kept.u), kept_here(kept.v), {}};
+  std::vector<int> u = kept.u, v = kept.v;  // and what moves with vertices that may lie outside
+  const std::vector<char> shared = kept.unknowns.shared();
+  for (std::size_t p = 0; p < shared.size(); ++p) {
+    if (shared[p]) (p % 2 == 0 ? u : v).push_back(static_cast<int>(p / 2));
+  }
+  const Kept here{{}, kept_here(u), kept_here(v), {}, {}};
   solver::SparseCholesky factor;
   const auto make = [&](const Function& at) -> Precondition {
     const Eigen::SparseMatrix<double> lower = patch.energy.laplacian(at, lambda, patch.free_count);

@@ -5,6 +5,7 @@
 
 #include "base/execution.h"
 #include "evening/strain_energy.h"
+#include "evening/unknowns.h"
 #include "mesh/surface.h"
 #include "uv/uv_map.h"
 
@@ -14,7 +15,8 @@ namespace holomorph::evening {
 struct Kept {
   std::vector<int> poles;  ///< vertices at which the map is infinite
   std::vector<int> u, v;   ///< ascending vertices at which u, or v, keeps its value, as on a straight boundary
-  CornerTurns turns;       ///< by which the function turns at corners, as the jumps of the map do; u is v then
+  CornerTurns turns;       ///< by which the function turns at corners, as the jumps of the map do
+  Unknowns unknowns;       ///< of a function that turns; parts that are none are in u or v as well
 };
 
 /// The evenness that suits textures: squares hardly differ in size, and their shear is not seen.

@@ -102,7 +102,7 @@ Tiling with_evenness(std::shared_ptr<const ConformalTiling> conformal, double ev
   uv::UvArray function = conformal->function;
   if (evenness > 0) {
     execution.stage("evening", begin, 0.9);
-    evening::Kept kept{conformal->poles, {}, {}, {}};
+    evening::Kept kept{conformal->poles, {}, {}, {}, {}};
     if (conformal->straight) kept.v = boundary_vertices(surface);
     // Evening adds a function on the vertices, so that jumps and straight boundaries stay.
     const uv::UvArray uv = seamless_uv(*conformal->structure, conformal->seamless, function, execution);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <random>
 #include <tuple>
+#include <utility>
 
 #include "base/errors.h"
 #include "turns/scale_form.h"
@@ -52,8 +54,16 @@ double price_of(int n) {
 
 class Search {
  public:
-  Search(const mesh::Surface& surface, const Net& net, const ConeOptions& options, Execution& execution)
-      : execution_(execution), points_(surface.polygons.vertices), net_(net), options_(options), form_(net, options.k) {
+  Search(const mesh::Surface& surface, const Net& net, const ConeOptions& options, Execution& execution,
+         std::vector<int> patch = {})
+      : execution_(execution),
+        points_(surface.polygons.vertices),
+        net_(net),
+        options_(options),
+        patch_(std::move(patch)),
+        form_(net, options.k) {
+    has_patches_ = !patch_.empty();
+    if (!has_patches_) patch_.assign(net.vertex_count(), 0);
     most_ = options.k == 1 ? 0 : options.k == 2 ? 1 : 2;
     least_ = -options.k;
     spacing_ = std::sqrt(net.whole_area / kCandidates);
@@ -65,8 +75,7 @@ class Search {
     execution_.report(part);
   }
 
-  Cones from_field(double level, const Along& along) {
-    std::vector<int> missing = cones_of_field(net_, points_, options_.k, along, level);
+  Cones from_field(std::vector<int> missing) {
     annihilate(missing);
     return from(missing, kFromField);
   }
@@ -94,8 +103,8 @@ class Search {
   }
 
   bool is_hole(int v) const { return net_.hole[v] == v; }
-  // Cones lie inside, and holes at their places.
-  bool is_place(int v) const { return net_.first[v] >= 0 && place_of(net_, v) == v; }
+  // Cones lie inside a patch, and holes at their places.
+  bool is_place(int v) const { return net_.first[v] >= 0 && place_of(net_, v) == v && patch_[v] >= 0; }
 
   // Farthest points, and the vertices where u without cones is extreme: the tips.
   void find_spread() {
@@ -138,12 +147,13 @@ class Search {
     for (;;) {
       std::vector<int> cones;
       for (int v = 0; v < net_.vertex_count(); ++v) {
-        if (missing[v] != 0 && !is_hole(v)) cones.push_back(v);
+        if (missing[v] != 0 && is_place(v) && !is_hole(v)) cones.push_back(v);
       }
       std::tuple<double, int, int> best{near, -1, -1};
       for (const int a : cones) {
         for (const int b : cones) {
-          if (missing[a] > 0 && missing[b] < 0) best = std::min(best, {squared_distance(points_[a], points_[b]), a, b});
+          if (missing[a] > 0 && missing[b] < 0 && patch_[a] == patch_[b])
+            best = std::min(best, {squared_distance(points_[a], points_[b]), a, b});
         }
       }
       const auto [distance, a, b] = best;
@@ -158,34 +168,50 @@ class Search {
   void begin(std::vector<int> candidates, const std::vector<int>* missing) {
     set(std::move(candidates));
     n_.assign(places_.size(), 0);
-    int left = form_.total();
+    std::map<int, int> left;  // what is to be placed in each patch
+    if (!missing) left[0] = form_.total();
+    for (int v = 0; missing && v < net_.vertex_count(); ++v) {
+      if ((*missing)[v] != 0 && patch_[v] >= 0) left[patch_[v]] += (*missing)[v];
+    }
     for (std::size_t i = 0; missing && i < places_.size(); ++i) {
       const int n = (*missing)[places_[i]];
       if (n == 0) continue;
-      const auto near = std::ranges::find_if(near_[i], [&](std::size_t j) { return n_[j] != 0; });
+      const auto near = std::ranges::find_if(near_[i], [&](std::size_t j) { return n_[j] != 0 && are_together(i, j); });
       int& united = near == near_[i].end() ? n_[i] : n_[*near];
-      united = is_hole(places_[i]) ? n : std::clamp(united + n, least_, most_);
+      united = is_hole(places_[i]) || !moves(i) ? n : std::clamp(united + n, least_, most_);
     }
-    for (const int n : n_) left -= n;
-    VectorXd n(n_.size());
-    for (; left != 0; left -= left > 0 ? 1 : -1) {
-      const int sign = left > 0 ? 1 : -1;
-      for (std::size_t i = 0; i < n_.size(); ++i) n[static_cast<Eigen::Index>(i)] = n_[i];
-      const VectorXd change = 2 * sign * (form_.Q() * n - form_.b()) + form_.Q().diagonal();
-      int best = -1;
-      for (const bool apart : {true, false}) {
-        if (best >= 0) break;
-        for (std::size_t i = 0; i < n_.size(); ++i) {
-          if (!may_be(i, sign) || (apart && crowd(i) > 0 && n_[i] == 0)) continue;
-          if (best < 0 || change[static_cast<Eigen::Index>(i)] < change[best]) best = static_cast<int>(i);
-        }
-      }
-      if (best < 0) throw SolverError("no cones fit this surface: it has too few vertices");
-      n_[best] += sign;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (n_[i] != 0 && moves(i)) left[patch_[places_[i]]] -= n_[i];
+    }
+    for (auto& [patch, sum] : left) {
+      for (; sum != 0; sum -= sum > 0 ? 1 : -1) add_to(patch, sum > 0 ? 1 : -1);
     }
   }
 
+  // Adds a unit to a patch where it costs least.
+  void add_to(int patch, int unit) {
+    VectorXd n(n_.size());
+    for (std::size_t i = 0; i < n_.size(); ++i) n[static_cast<Eigen::Index>(i)] = n_[i];
+    const VectorXd change = 2 * unit * (form_.Q() * n - form_.b()) + form_.Q().diagonal();
+    int best = -1;
+    for (const bool apart : {true, false}) {
+      if (best >= 0) break;
+      for (std::size_t i = 0; i < n_.size(); ++i) {
+        if (patch_[places_[i]] != patch || !may_be(i, unit) || (apart && crowd(i) > 0 && n_[i] == 0)) continue;
+        if (best < 0 || change[static_cast<Eigen::Index>(i)] < change[best]) best = static_cast<int>(i);
+      }
+    }
+    if (best < 0) throw SolverError("no cones fit this surface: it has too few vertices");
+    n_[best] += unit;
+  }
+
+  bool moves(std::size_t i) const { return patch_[places_[i]] >= 0; }
+  bool are_together(std::size_t i, std::size_t j) const {
+    return !has_patches_ || (moves(i) && patch_[places_[i]] == patch_[places_[j]]);
+  }
+
   bool may_be(std::size_t i, int change) const {
+    if (!moves(i)) return false;
     return is_hole(places_[i]) || (change > 0 ? n_[i] + change <= most_ : n_[i] + change >= least_);
   }
 
@@ -220,7 +246,7 @@ class Search {
 
   // Unit moves n_i + 1, n_j - 1, and jumps of a whole cone, the best of all while it lowers the cost.
   void search(double price_part, double handles_part) {
-    const double kappa = kHandles * handles_part;
+    const double kappa = has_patches_ ? 0 : kHandles * handles_part;  // the field of the patches says how handles turn
     const double price = options_.price * price_part;
     const auto count = static_cast<Eigen::Index>(places_.size());
     const MatrixXd &flux = form_.flux(), Q = form_.Q() + kappa * flux.transpose() * flux;
@@ -256,6 +282,7 @@ class Search {
         for (Eigen::Index i = 0; i < count; ++i) {
           const double change = up[i] + down[j] - 2 * Q(i, j);
           if (i == j || !(change < best) || (n_[i] == 0 && n_[j] == 0 && are_near(i, j))) continue;
+          if (!are_together(i, j)) continue;
           best = change, to = i, from = j, carried = 1;
         }
       }
@@ -264,6 +291,7 @@ class Search {
         if (w == 0 || is_hole(places_[j])) continue;
         for (Eigen::Index i = 0; i < count; ++i) {
           if (n_[i] != 0 || is_hole(places_[i]) || crowds[i] > (are_near(i, j) ? 1 : 0)) continue;
+          if (!are_together(i, j)) continue;
           const double change = 2 * w * (r[i] - r[j]) + w * w * (diagonal[i] + diagonal[j] - 2 * Q(i, j));
           if (change < best) best = change, to = i, from = j, carried = w;
         }
@@ -322,6 +350,8 @@ class Search {
   const std::vector<Point>& points_;
   const Net& net_;
   const ConeOptions options_;
+  std::vector<int> patch_;  // #V: cones stay within theirs, and where it is below 0
+  bool has_patches_ = false;
   ScaleForm form_;
   std::vector<int> spread_, places_, n_;
   std::vector<std::vector<std::size_t>> near_;  // to each candidate, ascending
@@ -341,7 +371,8 @@ std::vector<Cones> find_cones(const mesh::Surface& surface, const ConeOptions& o
   report();
   if (options.along) {
     for (const double level : kLevels) {
-      found.push_back(search.from_field(level, *options.along));
+      const std::vector<Complex> field = level_field(net, surface.polygons.vertices, options.k, *options.along, level);
+      found.push_back(search.from_field(cones_of_field(net, field, options.k)));
       report();
     }
   }
@@ -358,6 +389,12 @@ Cones refined_cones(const mesh::Surface& surface, const std::vector<int>& missin
   execution.report(0);
   const Net net(surface);
   return Search(surface, net, options, execution).from_level(missing);
+}
+
+Cones cones_in_patches(const mesh::Surface& surface, const Net& net, const std::vector<int>& patch,
+                       const std::vector<int>& missing, const ConeOptions& options, Execution& execution) {
+  execution.report(0);
+  return Search(surface, net, options, execution, patch).from_field(missing);
 }
 
 }  // namespace holomorph::turns

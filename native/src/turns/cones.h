@@ -39,4 +39,8 @@ std::vector<Cones> find_cones(const mesh::Surface& surface, const ConeOptions& o
 Cones refined_cones(const mesh::Surface& surface, const std::vector<int>& missing, const ConeOptions& options,
                     Execution& execution);
 
+/// Goes on from the cones of a field, #V, each within its patch. @param patch #V, where cones stay: below 0
+Cones cones_in_patches(const mesh::Surface& surface, const Net& net, const std::vector<int>& patch,
+                       const std::vector<int>& missing, const ConeOptions& options, Execution& execution);
+
 }  // namespace holomorph::turns

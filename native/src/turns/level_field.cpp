@@ -14,6 +14,9 @@ using Point = std::array<double, 3>;
 
 constexpr double kScale = 40;               // of the weight, relative to the lowest modes of the field
 constexpr double kLeast = 0.1, kMost = 10;  // weights of edges between the limits, for their inverses
+constexpr double kHeld = 1e6;               // weight of the direction at a line: it does not give way
+constexpr double kCancels = 0.3;            // of a side's length: two lines of a triangle that are no k-th turn apart
+constexpr double kUpright = 0.7;            // cosine
 
 Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -39,10 +42,46 @@ Level level_directions(const Net& net, const std::vector<Point>& points, const A
   return result;
 }
 
-std::vector<int> cones_of_field(const Net& net, const std::vector<Point>& points, int k, const Along& along,
-                                double weight) {
+namespace {
+
+// The field at the triangles beside lines, 0 at others: of two lines that disagree the longer one counts.
+std::vector<Complex> beside_lines(const Net& net, const std::vector<Point>& points, int k, const Along& along) {
+  std::vector<int> sides;
+  for (int side = 0; side < net.side_count(); ++side) {
+    if (net.is_line[side] && net.area[side / 3] > 0) sides.push_back(side);
+  }
+  const auto length = [&](int side) { return std::abs(net.along[side]); };
+  std::stable_sort(sides.begin(), sides.end(), [&](int a, int b) { return length(a) < length(b); });
+  std::vector<Complex> field(net.triangle_count(), 0.0);
+  for (const int side : sides) {
+    Complex own = std::polar(1.0, k * std::arg(net.along[side]));
+    if (k == 2) {  // the line is one along u, or one along v
+      const double upwards = std::abs(dot(difference(points[net.head[side]], points[net.tail[side]]), along.vector));
+      if ((upwards > kUpright * length(side)) != along.is_of_u) own = -own;
+    }
+    const Complex sum = field[side / 3] + own * length(side);
+    field[side / 3] = std::abs(sum) > kCancels * length(side) ? sum : own * length(side);
+  }
+  for (Complex& z : field) {
+    if (z != 0.0) z /= std::abs(z);
+  }
+  return field;
+}
+
+}  // namespace
+
+double within_turn(double angle, int k) {
+  const double unit = 2 * std::numbers::pi / k;
+  return angle - unit * std::round(angle / unit);
+}
+
+double dual_weight(const Net& net, int side) { return 1 / std::clamp(net.weight[side], kLeast, kMost); }
+
+std::vector<Complex> level_field(const Net& net, const std::vector<Point>& points, int k, const Along& along,
+                                 double weight) {
   const int count = net.triangle_count();
   const Level level = level_directions(net, points, along);
+  const std::vector<Complex> held = beside_lines(net, points, k, along);
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(2 * count, 1);
   const auto add = [&](int row, int column, Complex value) {  // a complex entry as a real block, the lower half
@@ -54,6 +93,12 @@ std::vector<int> cones_of_field(const Net& net, const std::vector<Point>& points
     }
   };
   for (int t = 0; t < count; ++t) {
+    if (held[t] != 0.0) {
+      add(t, t, kHeld);
+      b(2 * t, 0) = kHeld * held[t].real();
+      b(2 * t + 1, 0) = kHeld * held[t].imag();
+      continue;
+    }
     const double pull = weight * kScale / count * (net.area[t] / net.whole_area * count) * level.steepness[t];
     add(t, t, pull + 1e-9);
     const Complex wanted = pull * std::pow(level.direction[t], k);
@@ -65,7 +110,7 @@ std::vector<int> cones_of_field(const Net& net, const std::vector<Point>& points
     if (back < side) continue;  // each inner edge once
     const int f = side / 3, g = back / 3;
     if (f == g) continue;
-    const double w = 1 / std::clamp(net.weight[side], kLeast, kMost);
+    const double w = dual_weight(net, side);
     const Complex carried = std::polar(1.0, k * net.transport[side]);  // z_g is to be carried * z_f
     add(f, f, w);
     add(g, g, w);
@@ -78,24 +123,36 @@ std::vector<int> cones_of_field(const Net& net, const std::vector<Point>& points
   lower.setFromTriplets(entries.begin(), entries.end());
   solver::SparseCholesky factor;
   factor.compute(lower, {});
-  const Eigen::MatrixXd z = factor.solve(b);
-  const auto at = [&](int t) { return Complex(z(2 * t, 0), z(2 * t + 1, 0)); };
-  // The index of a vertex: the turning of the field on the way around it.
-  const double pi = std::numbers::pi;
+  const Eigen::MatrixXd x = factor.solve(b);
+  std::vector<Complex> field(count);
+  for (int t = 0; t < count; ++t) {
+    const Complex z(x(2 * t, 0), x(2 * t + 1, 0));
+    field[t] = held[t] != 0.0 ? held[t] : std::abs(z) > 0 ? z / std::abs(z) : Complex(1);
+  }
+  return field;
+}
+
+std::vector<int> cones_of_field(const Net& net, const std::vector<Complex>& field, int k) {
   std::vector<double> turned(net.vertex_count(), 0.0);
   for (int v = 0; v < net.vertex_count(); ++v) {
-    if (net.first[v] >= 0) turned[v] = net.defect[v] + (net.hole[v] == v ? 2 * pi : 0);
+    if (net.first[v] >= 0) turned[v] = net.defect[v];
   }
   for (int side = 0; side < net.side_count(); ++side) {
     const int back = net.twin[side];
-    if (back < 0) continue;
-    const Complex carried = at(side / 3) * std::polar(1.0, k * net.transport[side]);
-    turned[net.head[side]] += std::arg(at(back / 3) * std::conj(carried)) / k;
+    if (back >= 0) {
+      const Complex carried = field[side / 3] * std::polar(1.0, k * net.transport[side]);
+      turned[net.head[side]] += std::arg(field[back / 3] * std::conj(carried)) / k;
+    } else if (net.hole[net.tail[side]] < 0) {  // what the boundary turns against the field
+      const double beside = within_turn(std::arg(net.along[side]) - std::arg(field[side / 3]) / k, k);
+      turned[net.tail[side]] -= beside;
+      turned[net.head[side]] += beside;
+    }
   }
   std::vector<double> sums(net.vertex_count(), 0.0);
   for (int v = 0; v < net.vertex_count(); ++v) sums[net.hole[v] < 0 ? v : net.hole[v]] += turned[v];
   std::vector<int> missing(net.vertex_count(), 0);
-  for (int v = 0; v < net.vertex_count(); ++v) missing[v] = static_cast<int>(std::lround(k * sums[v] / (2 * pi)));
+  for (int v = 0; v < net.vertex_count(); ++v)
+    missing[v] = static_cast<int>(std::lround(k * sums[v] / (2 * std::numbers::pi)));
   return missing;
 }
 

@@ -22,10 +22,19 @@ struct Level {
 };
 Level level_directions(const Net& net, const std::vector<std::array<double, 3>>& points, const Along& along);
 
-/// The cones of the field z that minimises its differences across edges and its distance from level, weighted by how
-/// steep a triangle is: (A + weight W) z = weight W q. @return #V, k-th turns that are missing
-/// @throws SolverError
-std::vector<int> cones_of_field(const Net& net, const std::vector<std::array<double, 3>>& points, int k,
-                                const Along& along, double weight);
+/// The field z, one number of length 1 a triangle, whose k-th roots are k directions of u. It minimises its differences
+/// across edges and its distance from level, weighted by how steep a triangle is: (A + weight W) z = weight W q. At
+/// lines of the net u or v runs along them. @throws SolverError
+std::vector<Complex> level_field(const Net& net, const std::vector<std::array<double, 3>>& points, int k,
+                                 const Along& along, double weight);
+
+/// The cones of a field: how it turns on the way around a vertex. @return #V, k-th turns that are missing
+std::vector<int> cones_of_field(const Net& net, const std::vector<Complex>& field, int k);
+
+/// The angle in (-pi / k, pi / k] that is one of a k-th turn more or less.
+double within_turn(double angle, int k);
+
+/// The weight of the difference of a field, or of frames, across a side.
+double dual_weight(const Net& net, int side);
 
 }  // namespace holomorph::turns

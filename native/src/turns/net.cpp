@@ -65,20 +65,33 @@ void find_twins(Net& net, int edges) {
   }
 }
 
-void find_holes(Net& net) {
-  std::vector<int> following(net.vertex_count(), -1);
+// @return the number of boundary loops
+int find_holes(Net& net) {
+  std::vector<int> along(net.vertex_count(), -1);  // the side of the boundary that leaves a vertex
   for (int side = 0; side < net.side_count(); ++side) {
-    if (net.twin[side] < 0) following[net.tail[side]] = net.head[side];
+    if (net.twin[side] < 0) along[net.tail[side]] = side;
   }
+  int loops = 0;
   for (int v = 0; v < net.vertex_count(); ++v) {
-    if (following[v] < 0 || net.hole[v] >= 0) continue;
-    for (int w = v; net.hole[w] < 0; w = following[w]) net.hole[w] = v;
+    if (along[v] < 0 || net.on_boundary[v]) continue;
+    ++loops;
+    bool is_hole = true;
+    std::vector<int> loop;
+    for (int w = v; !net.on_boundary[w]; w = net.head[along[w]]) {
+      net.on_boundary[w] = 1;
+      loop.push_back(w);
+      if (net.is_line[along[w]]) is_hole = false;
+    }
+    if (!is_hole) continue;
+    for (const int w : loop) net.hole[w] = v;
+    net.defect[v] += 2 * kPi;
   }
+  return loops;
 }
 
 }  // namespace
 
-Net::Net(const mesh::Surface& surface)
+Net::Net(const mesh::Surface& surface, const std::vector<int>& lines)
     : tail(3 * surface.triangles.size()),
       head(tail.size()),
       edge(tail.size()),
@@ -91,7 +104,9 @@ Net::Net(const mesh::Surface& surface)
       vertex_area(surface.vertex_count, 0.0),
       defect(surface.vertex_count, 2 * kPi),
       first(surface.vertex_count, -1),
-      hole(surface.vertex_count, -1) {
+      hole(surface.vertex_count, -1),
+      on_boundary(surface.vertex_count, 0),
+      is_line(tail.size(), 0) {
   const double raise = raise_of(surface);
   for (int t = 0; t < triangle_count(); ++t) {
     lay_out(*this, surface, t, raise);
@@ -103,7 +118,10 @@ Net::Net(const mesh::Surface& surface)
   }
   const int edges = static_cast<int>(surface.edges.size());
   find_twins(*this, edges);
-  find_holes(*this);
+  std::vector<char> is_line_edge(edges, 0);
+  for (const int e : lines) is_line_edge[e] = 1;
+  for (int side = 0; side < side_count(); ++side) is_line[side] = is_line_edge[edge[side]];
+  const int loops = find_holes(*this);
   for (int side = 0; side < side_count(); ++side) {
     const int back = twin[side], v = tail[side];
     weight[side] = std::min(cotangent[side], kMostCotangent);
@@ -117,13 +135,12 @@ Net::Net(const mesh::Surface& surface)
     if (first[v] < 0 || back < 0) first[v] = side;
     whole_area += area[side / 3] / 3;
   }
-  int vertices = 0, holes = 0;
+  int vertices = 0;
   for (int v = 0; v < vertex_count(); ++v) {
     vertices += first[v] >= 0;
-    holes += hole[v] == v;
-    if (hole[v] >= 0) defect[v] -= kPi;
+    if (on_boundary[v]) defect[v] -= kPi;
   }
-  genus = (2 - holes - (vertices - edges + triangle_count())) / 2;
+  genus = (2 - loops - (vertices - edges + triangle_count())) / 2;
 }
 
 std::vector<std::vector<int>> dual_loops(const Net& net) {

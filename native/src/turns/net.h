@@ -13,7 +13,8 @@ using Complex = std::complex<double>;
 /// Side 3 t + i runs from corner i of triangle t to corner i + 1. The plane of a triangle has its corner 0 at 0, and
 /// its side 0 along the real axis. A triangle without area does not count.
 struct Net {
-  explicit Net(const mesh::Surface& surface);
+  /// @param lines edges of the surface that are to be lines of the lattice. A boundary loop with one of them is no hole
+  explicit Net(const mesh::Surface& surface, const std::vector<int>& lines = {});
 
   int vertex_count() const { return static_cast<int>(vertex_area.size()); }
   int triangle_count() const { return static_cast<int>(area.size()); }
@@ -34,17 +35,19 @@ struct Net {
   std::vector<double> weight;       ///< #sides, that of the edge: the sum of both, positive
   std::vector<double> area;         ///< #T, 0 without area
   std::vector<double> vertex_area;  ///< #V, a third of the areas around
-  /// #V, what is missing of 2 pi around a vertex; on the boundary of pi. On a hole the sum, and 2 pi besides, is that
-  /// of the polygon which fills it.
+  /// #V, what is missing of 2 pi around a vertex; on the boundary of pi. The lowest vertex of a hole has 2 pi besides:
+  /// the sum over it is that of the polygon which fills it.
   std::vector<double> defect;
-  std::vector<int> first;  ///< #V, a side that leaves the vertex; on the boundary the one along it; -1 for none
-  std::vector<int> hole;   ///< #V, the lowest vertex of the boundary loop that it is on, or -1
+  std::vector<int> first;         ///< #V, a side that leaves the vertex; on the boundary the one along it; -1 for none
+  std::vector<int> hole;          ///< #V, the lowest vertex of the hole that it is on, or -1
+  std::vector<char> on_boundary;  ///< #V
+  std::vector<char> is_line;      ///< #sides
   double whole_area = 0;
   int genus = 0;
 };
 
-/// The closed dual curves that generate the homology of the surface with its holes filled: 2 genus lists of the sides
-/// that they cross.
+/// The closed dual curves that generate the homology of the surface with its holes filled: lists of the sides that they
+/// cross, 2 genus of them, and one a boundary loop but the last that is no hole.
 std::vector<std::vector<int>> dual_loops(const Net& net);
 
 }  // namespace holomorph::turns

@@ -56,36 +56,27 @@ Complex turned_by(const TurnLattice& lattice, int r) {
   return lattice.at(turn(0, 0), turn(1, 0));
 }
 
-NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& space)
-    : unknown_(net.vertex_count(), -1) {
-  int count = 0;
-  for (int v = 0; v < net.vertex_count(); ++v) {
-    if (net.first[v] >= 0 && !space.is_fixed[v]) unknown_[v] = count++;
-  }
+NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& space, bool turns)
+    : unknowns_(space.unknowns), turns_(turns) {
+  const int count = unknowns_.count;
   const auto integers = space.offset.cols();
   const SparseComplex dq = differences(net, space);
   std::vector<Eigen::Triplet<double>> entries;
-  double trace = 0;
-  const auto add = [&](int row, int column, Complex value) {
-    const double block[2][2] = {{value.real(), -value.imag()}, {value.imag(), value.real()}};
+  // P^T T and P^T Q: zero away from the cut.
+  std::vector<Eigen::Triplet<double>> on_right;
+  const auto add_right = [&](int v, Eigen::Index column, Complex value) {
+    const double parts[2] = {value.real(), value.imag()};
     for (int i = 0; i < 2; ++i) {
-      for (int j = 0; j < 2; ++j) {
-        if (2 * row + i >= 2 * column + j && block[i][j] != 0)
-          entries.emplace_back(2 * row + i, 2 * column + j, block[i][j]);
-      }
+      const int p = 2 * v + i;
+      if (unknowns_.number[p] >= 0)
+        on_right.emplace_back(unknowns_.number[p], static_cast<int>(column), unknowns_.sign[p] * parts[i]);
     }
   };
-  // Real and imaginary parts, in turn, of P^H T and P^H Q: zero away from the cut.
-  std::vector<Eigen::Triplet<double>> on_right;
-  const auto add_right = [&](int row, Eigen::Index column, Complex value) {
-    if (row < 0) return;
-    on_right.emplace_back(2 * row, static_cast<int>(column), value.real());
-    on_right.emplace_back(2 * row + 1, static_cast<int>(column), value.imag());
-  };
   MatrixXcd QQ = MatrixXcd::Zero(integers, integers);
-  VectorXcd QT = VectorXcd::Zero(integers);
+  MatrixXd QT = MatrixXd::Zero(integers, 2);
+  double trace = 0;
   for (int side = 0; side < net.side_count(); ++side) {
-    const int t = side / 3, from = net.tail[side], to = net.head[side], a = unknown_[from], b = unknown_[to];
+    const int t = side / 3, a = net.tail[side], b = net.head[side];
     if (!(net.area[t] > 0)) continue;
     double u = 0;
     for (int i = 0; i < 3; ++i) u += frames.scale[net.tail[3 * t + i]] / 3;
@@ -94,45 +85,41 @@ NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& 
     const Complex wanted = scale * std::polar(1.0, -frames.angle[t]) * net.along[side];
     const Complex at_a = turned_by(space.lattice, space.corner_turn[side]);
     const Complex at_b = turned_by(space.lattice, space.corner_turn[Net::next(side)]);
-    if (a >= 0) add(a, a, c), trace += c;
-    if (b >= 0) add(b, b, c), trace += c;
-    add_right(a, 0, -c * std::conj(at_a) * wanted);
-    add_right(b, 0, c * std::conj(at_b) * wanted);
-    if (a >= 0 && b >= 0 && a != b) {
-      if (a > b)
-        add(a, b, -c * std::conj(at_a) * at_b);
-      else
-        add(b, a, -c * std::conj(at_b) * at_a);
-    }
+    unknowns_.add_difference(a, b, c, std::conj(at_a) * at_b, entries);
+    trace += 2 * c;
+    const auto add_both = [&](Eigen::Index column, Complex value) {
+      add_right(a, column, -c * std::conj(at_a) * value);
+      add_right(b, column, c * std::conj(at_b) * value);
+    };
+    add_both(0, wanted);
+    add_both(1, Complex(0, 1) * wanted);
     for (SparseComplex::InnerIterator it(dq, side); it; ++it) {
-      add_right(a, 1 + it.col(), -c * std::conj(at_a) * it.value());
-      add_right(b, 1 + it.col(), c * std::conj(at_b) * it.value());
-      QT[it.col()] += c * std::conj(it.value()) * wanted;
+      add_both(2 + it.col(), it.value());
+      const Complex product = c * std::conj(it.value()) * wanted;
+      QT(it.col(), 0) += product.real();
+      QT(it.col(), 1) -= product.imag();
       for (SparseComplex::InnerIterator other(dq, side); other; ++other)
         QQ(it.col(), other.col()) += c * std::conj(it.value()) * other.value();
     }
   }
-  for (int i = 0; i < 2 * count; ++i) entries.emplace_back(i, i, kRegular * trace / std::max(count, 1));
-  Eigen::SparseMatrix<double> lower(2 * count, 2 * count);
+  for (int i = 0; i < count; ++i) entries.emplace_back(i, i, kRegular * trace / std::max(count, 1));
+  Eigen::SparseMatrix<double> lower(count, count);
   lower.setFromTriplets(entries.begin(), entries.end());
   solving_->factor.compute(lower, {});
-  rhs_.resize(2 * count, 1 + integers);
+  rhs_.resize(count, 2 + integers);
   rhs_.setFromTriplets(on_right.begin(), on_right.end());
-  const MatrixXd y = solving_->factor.solve(rhs_.col(0));
-  // The imaginary part of P^H y is the real part of P^H (-i y), of y turned by a quarter.
-  VectorXd turned(2 * count);
-  for (int i = 0; i < count; ++i) turned[2 * i] = y(2 * i + 1, 0), turned[2 * i + 1] = -y(2 * i, 0);
-  const VectorXd real = rhs_.transpose() * y.col(0), imaginary = rhs_.transpose() * turned;
-  g_ = QT - real.tail(integers) - Complex(0, 1) * imaginary.tail(integers);
+  const MatrixXd y = solving_->factor.solve(MatrixXd(rhs_.leftCols(2)));
+  g_ = QT - (rhs_.transpose() * y).bottomRows(integers);
   MatrixXd S = QQ.real();
   for (Eigen::Index first = 0; first < integers; first += kColumns) {
     const Eigen::Index some = std::min<Eigen::Index>(kColumns, integers - first);
-    const MatrixXd x = solving_->factor.solve(MatrixXd(rhs_.middleCols(1 + first, some)));
+    const MatrixXd x = solving_->factor.solve(MatrixXd(rhs_.middleCols(2 + first, some)));
     S.middleCols(first, some) -= (rhs_.transpose() * x).bottomRows(integers);
   }
   S = (0.5 * (S + S.transpose())).eval();
   if (integers > 0) {
-    S.diagonal().array() += 1e-12 * S.trace() / static_cast<double>(integers);
+    // Where lines are whole, moving the map by the lattice changes nothing.
+    S.diagonal().array() += (turns ? 1e-12 : 1e-9) * S.trace() / static_cast<double>(integers);
     const linear::Cholesky<MatrixXd> root(S);
     if (!root.succeeded()) throw SolverError("the whole numbers of a turned map have no least energy");
     B_ = root.upper();
@@ -144,11 +131,13 @@ std::vector<NearestMap::Rounded> NearestMap::round(Complex factor) const {
   const lattice::ReducedBasis reduced = lattice::reduce(B_);
   const linear::Cholesky<MatrixXd> normal(B_.transpose() * B_);
   std::vector<Rounded> found;
+  const int angles = turns_ ? kAngles : 1;
   for (int i = 0; i < kSizes; ++i) {
     const double size = std::exp(kSpread * (2.0 * i / (kSizes - 1) - 1));
-    for (int j = 0; j < kAngles; ++j) {
-      const Complex f = factor * std::polar(size, kTurned * (2.0 * j / (kAngles - 1) - 1));
-      const VectorXd z0 = normal.solve(VectorXd((f * g_).real()));
+    for (int j = 0; j < angles; ++j) {
+      const double turned = turns_ ? kTurned * (2.0 * j / (kAngles - 1) - 1) : 0;
+      const Complex f = factor * std::polar(size, turned);
+      const VectorXd z0 = normal.solve(VectorXd(g_ * Eigen::Vector2d(f.real(), f.imag())));
       const lattice::IntegerVector z = lattice::nearest_plane(reduced, B_ * z0);
       const double error = (B_ * (z0 - z.cast<double>())).squaredNorm() / std::norm(f);
       const auto known = std::ranges::find_if(found, [&](const Rounded& one) { return one.z == z; });
@@ -163,22 +152,11 @@ std::vector<NearestMap::Rounded> NearestMap::round(Complex factor) const {
 }
 
 VectorXcd NearestMap::functions(const Rounded& rounded) const {
-  // The right side for another factor f = a + i b turns with it: a b0 + b (i b0).
-  VectorXd b = rounded.factor.real() * rhs_.col(0);
-  const VectorXd wanted = rhs_.col(0);
-  for (Eigen::Index i = 0; i < b.size(); i += 2) {
-    b[i] -= rounded.factor.imag() * wanted[i + 1];
-    b[i + 1] += rounded.factor.imag() * wanted[i];
-  }
+  VectorXd b = rhs_.leftCols(2) * Eigen::Vector2d(rounded.factor.real(), rounded.factor.imag());
   if (rounded.z.size() > 0) b -= rhs_.rightCols(rounded.z.size()) * rounded.z.cast<double>();
   const std::lock_guard lock(solving_->one_at_a_time);
-  const MatrixXd x = solving_->factor.solve(b);
-  VectorXcd y = VectorXcd::Zero(std::ssize(unknown_));
-  for (std::size_t v = 0; v < unknown_.size(); ++v) {
-    const Eigen::Index row = 2 * unknown_[v];
-    if (row >= 0) y[static_cast<Eigen::Index>(v)] = Complex(x(row, 0), x(row + 1, 0));
-  }
-  return y;
+  const evening::Function y = unknowns_.spread(solving_->factor.solve(b).col(0));
+  return Eigen::Map<const VectorXcd>(y.data(), std::ssize(y));
 }
 
 Complex level_factor(const Net& net, const Frames& frames, int k, const std::vector<std::array<double, 3>>& points,

@@ -7,7 +7,7 @@
 
 #include "solver/direct/sparse_cholesky.h"
 #include "turns/level_field.h"
-#include "turns/transitions.h"
+#include "turns/turned_space.h"
 
 namespace holomorph::turns {
 
@@ -16,8 +16,9 @@ namespace holomorph::turns {
 /// where the factor f says how large and how turned the map is to be.
 class NearestMap {
  public:
+  /// @param turns whether the map may be turned from its frames: where it has lines it may not
   /// @throws SolverError @pre the others outlive it
-  NearestMap(const Net& net, const Frames& frames, const TurnedSpace& space);
+  NearestMap(const Net& net, const Frames& frames, const TurnedSpace& space, bool turns);
 
   /// A factor and whole numbers; error: how far they are from the map without whole numbers, over |f|^2.
   struct Rounded {
@@ -32,15 +33,17 @@ class NearestMap {
   Eigen::VectorXcd functions(const Rounded& rounded) const;
 
  private:
-  std::vector<int> unknown_;         // #V, -1 where y is 0
-  Eigen::SparseMatrix<double> rhs_;  // for f = 1 and z = 0, and by what it falls for each z; 2 #unknowns rows
+  const evening::Unknowns& unknowns_;
+  const bool turns_;
+  Eigen::SparseMatrix<double>
+      rhs_;  // #unknowns x (2 + #z): for f = 1 and f = i, z = 0, and by what it falls for each z
   struct Solving {
     solver::SparseCholesky factor;
     std::mutex one_at_a_time;
   };
   std::unique_ptr<Solving> solving_ = std::make_unique<Solving>();
-  Eigen::MatrixXd B_;   // #z x #z
-  Eigen::VectorXcd g_;  // B^T B z0(f) = Re(f g)
+  Eigen::MatrixXd B_;  // #z x #z
+  Eigen::MatrixXd g_;  // #z x 2: B^T B z0(f) = g (Re f, Im f)
 };
 
 /// The factor at which rows are level in the mean where the surface is steep, of modulus 1.

@@ -23,9 +23,8 @@ ScaleForm::ScaleForm(const Net& net, int k)
   double sum = 0;
   for (int v = 0; v < net.vertex_count(); ++v) {
     if (net.first[v] < 0) continue;
-    const double own = net.defect[v] + (net.hole[v] == v ? kTwoPi : 0);
-    defect[place_of(net, v)] += own;
-    sum += own;
+    defect[place_of(net, v)] += net.defect[v];
+    sum += net.defect[v];
   }
   total_ = static_cast<int>(std::lround(sum / unit_));
   u0_ = laplace_.solve(-defect).col(0);

@@ -88,7 +88,7 @@ double wrong_area(const mesh::Surface& surface, const Net& net, const uv::UvArra
   double sum = 0;
   for (int t = 0; t < net.triangle_count(); ++t) {
     const bool is_wrong = std::ranges::any_of(surface.triangles[t], [&](int v) {
-      return net.hole[v] < 0 &&
+      return !net.on_boundary[v] &&
              std::abs(turned[v] - (1 - static_cast<double>(missing[v]) / k)) > 0.75;  // it is off by whole turns
     });
     if (is_wrong || is_flipped[t]) sum += net.area[t];
@@ -117,6 +117,9 @@ class PlacedCones {
  public:
   // Frames, and the space of the maps with these cones.
   PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, std::vector<int> missing);
+  // The cones and frames of a field that runs along lines.
+  PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, const Lines& lines,
+              Execution& execution);
 
   struct Judged {
     TurnedMap map;
@@ -148,18 +151,28 @@ PlacedCones::PlacedCones(std::shared_ptr<const mesh::Surface> surface, const Con
       net_(*surface_),
       missing_(std::move(missing)),
       frames_(make_frames(*surface_, net_, options.k, missing_)),
-      space_(make_space(net_, frames_, options.k, missing_)),
-      nearest_(net_, frames_, space_) {
+      space_(make_space(net_, frames_, options.k, missing_, false)),
+      nearest_(net_, frames_, space_, true) {
   level_ =
       options.along ? level_factor(net_, frames_, options.k, surface_->polygons.vertices, *options.along) : Complex(1);
 }
 
+PlacedCones::PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, const Lines& lines,
+                         Execution& execution)
+    : surface_(std::move(surface)),
+      net_(*surface_, lines.edges),
+      frames_(lined_frames(*surface_, net_, options, missing_, execution)),
+      space_(make_space(net_, frames_, options.k, missing_, lines.are_whole)),
+      nearest_(net_, frames_, space_, false),
+      level_(1) {}
+
 evening::Kept PlacedCones::kept() const {
   evening::Kept kept;
+  kept.unknowns = space_.unknowns;
   for (int v = 0; v < surface_->vertex_count; ++v) {
-    if (space_.is_fixed[v]) kept.u.push_back(v);
+    if (space_.unknowns.number[2 * v] < 0) kept.u.push_back(v);
+    if (space_.unknowns.number[2 * v + 1] < 0) kept.v.push_back(v);
   }
-  kept.v = kept.u;
   kept.turns.resize(surface_->triangles.size());
   for (int side = 0; side < net_.side_count(); ++side)
     kept.turns[side / 3][side % 3] = turned_by(space_.lattice, space_.corner_turn[side]);
@@ -210,7 +223,7 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Executi
     best = {{std::move(uv), coordinates(y, nearest[i]), jumps, {}, {}}, bad};
   }
   for (int v = 0; v < surface_->vertex_count; ++v) {
-    if (missing_[v] == 0 || net_.hole[v] >= 0) continue;
+    if (missing_[v] == 0 || net_.on_boundary[v]) continue;
     best.map.cones.push_back(v);
     best.map.missing.push_back(missing_[v]);
   }
@@ -244,8 +257,8 @@ std::vector<int> cones_of(const std::shared_ptr<const mesh::Surface>& surface, c
 
 }  // namespace
 
-TurnedMaps::TurnedMaps(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options)
-    : surface_(std::move(surface)), options_(options) {
+TurnedMaps::TurnedMaps(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, Lines lines)
+    : surface_(std::move(surface)), options_(options), lines_(std::move(lines)) {
   if (surface_->intrinsic()) throw TopologyError("a turned map needs positions: the surface has edge lengths alone");
 }
 
@@ -256,7 +269,9 @@ const PlacedCones& TurnedMaps::placed(int level, Execution& execution) {
   if (!found) {
     ConeOptions wanted = options_;
     wanted.tiles *= std::exp2(-level);
-    found = std::make_unique<PlacedCones>(surface_, wanted, cones_of(surface_, wanted, execution));
+    found = lines_.edges.empty()
+                ? std::make_unique<PlacedCones>(surface_, wanted, cones_of(surface_, wanted, execution))
+                : std::make_unique<PlacedCones>(surface_, wanted, lines_, execution);
   }
   return *found;
 }

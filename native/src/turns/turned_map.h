@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "turns/cones.h"
+#include "turns/lines.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::turns {
@@ -36,7 +37,7 @@ class PlacedCones;
 class TurnedMaps {
  public:
   /// @throws TopologyError for a surface without positions
-  TurnedMaps(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options);
+  TurnedMaps(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, Lines lines = {});
   ~TurnedMaps();
 
   const mesh::Surface& surface() const { return *surface_; }
@@ -51,6 +52,7 @@ class TurnedMaps {
 
   std::shared_ptr<const mesh::Surface> surface_;
   ConeOptions options_;
+  Lines lines_;
   std::map<int, std::unique_ptr<const PlacedCones>> placed_;  // for half the tiles each
   std::mutex one_at_a_time_;
 };

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from command_runs import run
 from holomorph import InvalidMesh, Surface, automatic_maps, disk_islands, island_map, islands
-from holomorph.cutting.hard_edges import bends, curvature
 from holomorph.mesh.cut_open import cut_open, on_border, paths_to_border
+from holomorph.mesh.hard_edges import bends, curvature
 from small_families import MESHES
 from solved import BOUNDED, CLOSED
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..mesh.cut_open import on_border, paths_to_border
+from .cut_open import on_border, paths_to_border
 
 TIP = np.pi / 3  # radians that are missing around a vertex, or too many
 HIDING = np.pi / 3  # radians, from which on the bend hides a seam; where it is less, in proportion
