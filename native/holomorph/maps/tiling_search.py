@@ -37,6 +37,9 @@ ROUNDED = 0.9
 # rounding decides less than the poles.
 UNEVEN, MORE_POLES, MOST_POLES, FEW_TRIANGLES, MANY_TILES = 1.73, 2, 16, 5000, 60
 
+# Cost of a tiling without poles, expected and made, up to which the best map has no cones: all of its rows run round.
+REGULAR = 1.1
+
 POOR_TURNED = 2.0  # cost of a tiling that turns, above which one that is only shifted is tried: most cost 0.7 to 1.8
 
 # What rows that run along hard edges, and end there, are worth in the cost, which does not see them; and the triangles
@@ -122,6 +125,8 @@ class TilingSearch:
         if turns == 1:
             return self._shifted(size, progress)
         step, size = scaled(progress, 1.0, 1.0), size | ({"lattice": LATTICE[turns]} if turns in LATTICE else {})
+        if (regular := self._regular(size, step)) is not None:
+            return regular
         try:
             turned = self._with(self._request.poles, size, progress, turns=turns)
         except REFUSALS:
@@ -148,6 +153,17 @@ class TilingSearch:
             if made.quality.lost_part == 0 and made.cost < turned.cost + LINED:
                 return made
         return None
+
+    def _regular(self, size, progress):
+        """The tiling without poles where the best map is asked for and needs no cones; else None."""
+        is_best = self._request.main == "automatic" and self._is_open and self._has_tilings_without_poles
+        if not is_best or self.guess_without_poles() > REGULAR:
+            return None
+        try:
+            made = self._with(0, size, progress)
+        except REFUSALS:
+            return None
+        return made if made.quality.lost_part == 0 and made.cost <= REGULAR else None
 
     def _shifted(self, size, progress):
         """The one of least cost among those with the poles that are asked for, or, where that is left open, with as

@@ -98,7 +98,7 @@ def verdict(
         _rank(quality.overlapping_part or 0.0, OVERLAPPING),
     ]
     worst = max(ranks)
-    against_shear = _against_shear(quality, ratio(added_distortion, "added_distortion"), worst)
+    against_shear = _against_shear(quality, ratio(added_distortion, "added_distortion"), worst, turns)
     is_island = quality.overlapping_part is not None
     advice = (_against_unevenness(poles, is_island, turns), against_shear, _against_losses(quality), OVERLAP_ADVICE)
     wanted = [text for text, rank in zip(advice, ranks) if rank == worst > 0]
@@ -204,10 +204,11 @@ def _against_unevenness(poles, is_island, turns):
     return "add poles where it is coarse" if poles else "make a seamless tiling, with poles where it is coarse"
 
 
-def _against_shear(quality, added_distortion, rank):
-    if added_distortion > ADDED:
+def _against_shear(quality, added_distortion, rank, turns):
+    is_slight = rank <= LEVELS.index("fair")
+    if added_distortion > ADDED or (turns != 1 and is_slight):  # cones lie on few centres of large tiles
         return "ask for more tiles"
-    if rank <= LEVELS.index("fair"):
+    if is_slight:
         return "subdivide the mesh"
     if quality.long_part > MOSTLY:
         return f"remesh its long thin faces, {ISLANDS}"

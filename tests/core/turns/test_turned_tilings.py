@@ -132,6 +132,15 @@ def test_a_poor_map_that_turns_gives_way_to_one_that_is_shifted():
     assert made.kind == "tiling" and made.turns == 1 and made.cost < 0.1
 
 
+@pytest.mark.parametrize(("radius", "turns"), [(4.0, 1), (1.5, 4)])
+def test_the_best_map_of_an_even_ring_needs_no_cones(radius, turns):
+    """Its rows all run round; on a thick ring squares would differ too much in size."""
+    made = automatic_map(surface_of(families.torus(30, 20, R=radius)), turns=4)
+    assert made.turns == turns and len(made.poles) == 0 and (len(made.cones) > 0) == (turns > 1)
+    asked = automatic_map(surface_of(families.torus(30, 20, R=radius)), main="seamless", turns=4)
+    assert asked.turns == 4
+
+
 def test_a_flat_disk_and_a_straight_tube_have_no_cones():
     points, faces = families.hexagonal_disk(8)
     disk = Surface(np.column_stack([points, np.zeros(len(points))]), faces)

@@ -72,6 +72,12 @@ ISLANDS = "or unwrap it in islands along its hard edges"
         ({"size_range": np.inf}, {}, "Very uneven (squares of 1 to over 1000)", "make a seamless tiling"),
         ({"mean_angle": 1.3}, {}, "Even, slightly sheared", "subdivide the mesh"),
         ({"mean_angle": 1.3}, {"added_distortion": 1.2}, "Even, slightly sheared", "ask for more tiles"),
+        (
+            {"mean_angle": 1.3},
+            {"poles": 0, "turns": 4, "cones": 8},
+            "Even, seamless, slightly sheared, quarter turns, 8 cones",
+            "ask for more tiles",
+        ),
         ({"mean_angle": 3}, {}, "Even, badly sheared", "subdivide the mesh, which is too coarse"),
         ({"mean_angle": 2, "long_part": 0.9}, {}, "Even, sheared", f"remesh its long thin faces, {ISLANDS}"),
         (
