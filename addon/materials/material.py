@@ -44,7 +44,6 @@ def across(texture):
 
 
 CHECKER_TURNS = 4  # the checker looks the same after a quarter turn, about the middle of a square
-USUAL_CHECKER_TURNS = 1  # of a map for it where no turns are chosen: what a first click makes is only shifted
 
 
 def turns(texture, own=None):
@@ -55,11 +54,6 @@ def turns(texture, own=None):
     if own is not None:
         return own.turns
     return CHECKER_TURNS if texture == CHECKER else TEXTURES[texture].turns
-
-
-def usual_turns(texture, own=None):
-    """The turns of a map for a texture where none are chosen."""
-    return USUAL_CHECKER_TURNS if texture == CHECKER and own is None else turns(texture, own)
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ ALLOWING = 0.5  # weight of a vertex above which a pole may be there
 SQUARES = 4  # of the checker, across an image
 TURNS = {"NONE": 1, "HALF": 2, "QUARTER": 4, "SIXTH": 6}  # others: those of the texture
 TURNED = {2: ("square", "half"), 4: ("square", "quarter"), 6: ("hex", "sixth")}  # lattice that they leave, their name
+QUICK_TURNED = 100_000  # triangles of an object: some 12 seconds, which grow as their square
 # Lattices that quarter turns of a map that is made leave as they are, and so the texture whole. On others it is turned
 # before its jumps are rounded.
 QUARTERED = ("square", ((1.0, 0.0), (0.0, 1.0)))
@@ -78,8 +79,8 @@ def choices(properties):
     )
 
 
-def _map_options(properties, _target, own):
-    """The `mapped.MapOptions`, the same for every object."""
+def _map_options(properties, target, own):
+    """The `mapped.MapOptions` for a `targets.Target`."""
     lattice = {} if own is None else {"lattice": own.lattice}
     tiling = TileOptions(density=_density(properties.size, 1), evenness=properties.evenness, **lattice)
     return MapOptions(
@@ -90,7 +91,7 @@ def _map_options(properties, _target, own):
         tuple(properties.phases),
         properties.margin,
         properties.main,
-        tiling=_turned(properties, own, tiling),
+        tiling=_turned(properties, target, own, tiling),
     )
 
 
@@ -115,19 +116,19 @@ def _tile_options(properties, target, own):
         allowed=allowed(properties.pole_group, obj),
         evenness=properties.evenness,
     )
-    return MapOptions(forms=0, main=TILING, tiling=_turned(properties, own, tiling))
+    return MapOptions(forms=0, main=TILING, tiling=_turned(properties, target, own, tiling))
 
 
-def _turned(properties, own, tiling):
+def _turned(properties, target, own, tiling):
     """The `TileOptions` with the turns that are asked for; of the texture, where nothing is chosen that they exclude.
     @throws ValueError something is"""
     texture = material.CHECKER if properties.texture in (IMAGE, MATERIAL) and own is None else properties.texture
-    turns = TURNS.get(properties.turns) or material.usual_turns(texture, own)
+    turns = TURNS.get(properties.turns) or (material.turns(texture, own) if _follows_texture(properties, target) else 1)
     if turns == 1:
         return tiling
     lattice, name = TURNED[turns]
     excluded = {
-        "Poles": tiling.poles != "auto" or tiling.allowed is not None,
+        "Poles": getattr(properties, "poles", "AUTOMATIC") != "AUTOMATIC" or tiling.allowed is not None,
         "Lattice": getattr(properties, "lattice", AUTOMATIC) not in (AUTOMATIC, lattice),
         "Rotation": tiling.turn != 0,
         "Boundary": tiling.boundary == "straight",
@@ -140,6 +141,12 @@ def _turned(properties, own, tiling):
     raise ValueError(
         f"a map with {name} turns has no choice of {' and '.join(chosen)}: leave it automatic, or set Turns to None"
     )
+
+
+def _follows_texture(properties, target):
+    """Whether a map turns as its texture does: where it is shown, and that is quick."""
+    polygons = target.polygons
+    return properties.checker and len(polygons.corner_vertices) - 2 * polygons.face_count <= QUICK_TURNED
 
 
 def _why_seams(texture, own, turns):

@@ -288,7 +288,7 @@ def test_textures_that_are_not_there(options, word, torus_file):
     assert word in refusal(torus_file, *options)
 
 
-@pytest.mark.parametrize(("options", "turns"), [((), 1), (("--texture", "bricks"), 2), (("--turns", "quarter"), 4)])
+@pytest.mark.parametrize(("options", "turns"), [((), 4), (("--texture", "bricks"), 2), (("--turns", "none"), 1)])
 def test_turns_of_the_command_line(options, turns, torus_file, tmp_path):
     report = tmp_path / "report.json"
     done = headless(torus_file, "--report", report, "--seamless", *options)

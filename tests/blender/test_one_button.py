@@ -6,6 +6,7 @@ import pytest
 from loaded_addon import module
 from scenes import (
     edge_jumps,
+    edge_sides,
     everything,
     face_densities,
     fills_the_square,
@@ -21,6 +22,7 @@ from scenes import (
     then,
     torus,
     torus_arrays,
+    turned_jumps,
     two_parts,
     uv,
     written,
@@ -48,8 +50,8 @@ def test_an_uneven_part_becomes_seamless():
     (found,) = tilings(obj)
     assert found["size_range"] < 0.9 * before
     assert [layer.name for layer in obj.data.uv_layers] == ["Holomorphic", "Holomorphic 1"]
-    vertices, jumps = edge_jumps(obj)
-    whole = jumps[~np.isin(vertices, found["poles"])]
+    _, whole, off = turned_jumps(obj, found["turns"])
+    assert found["turns"] == 4 and off.max() == 0
     assert np.array_equal(whole, np.round(whole)) and np.abs(whole).max() >= 1
 
 
@@ -168,9 +170,9 @@ def test_parts_of_both_kinds_lie_side_by_side_at_one_density():
     assert first is not None and second is None
     values, count = uv(obj), 3 * len(limb_arrays()[1])
     assert values[:count, 0].max() < values[count:, 0].min() and values.min() > -1e-6
-    vertices, jumps = edge_jumps(obj)
-    whole = jumps[(vertices < len(limb_arrays()[0])) & ~np.isin(vertices, first["poles"])]
-    assert np.array_equal(whole, np.round(whole))
+    is_first = (edge_sides(obj)[0] < len(limb_arrays()[0])).all(axis=1)
+    _, whole, off = (each[is_first] for each in turned_jumps(obj, first["turns"]))
+    assert off.max() == 0 and np.array_equal(whole, np.round(whole))
     densities = np.split(face_densities(obj), [len(limb_arrays()[1])])
     assert 0.5 < np.median(densities[0]) / np.median(densities[1]) < 2
 
@@ -198,7 +200,7 @@ def test_the_report_begins_with_words():
     obj = limb()
     press()
     lines = [line.strip() for line in module("results.stored").summary(obj["holomorph_report"])]
-    assert "seamless" in lines[2] and "poles" in lines[2]
+    assert "seamless" in lines[2] and "quarter turns" in lines[2] and "cones" in lines[2]
     assert any(line.startswith("size range ") for line in lines)
     assert stored_report(obj)["dials"]["main"] == "AUTOMATIC"
     assert stored_report(obj)["components"][0]["forms"] == 1
@@ -212,6 +214,7 @@ def test_refused_parts_are_told_and_keep_their_map(monkeypatch):
         raise library.TopologyError("too few tiles")
 
     monkeypatch.setattr(library.forms.results, "Tiler", refuse)
+    monkeypatch.setattr(library.forms.results, "TurnedTiler", refuse)
     assert press(main="SEAMLESS") == {"FINISHED"}
     assert tilings(obj) == [None] and fills_the_square(uv(obj))
     outcome = written(obj, main="SEAMLESS")
@@ -220,15 +223,18 @@ def test_refused_parts_are_told_and_keep_their_map(monkeypatch):
 
 
 def test_the_redo_panel_makes_nothing_again(monkeypatch):
+    """Scales do not turn: they have a map of their own, which is kept, too, and no solve."""
     limb()
     press()
 
     def forbidden(*_arguments, **_options):
         raise AssertionError("made again")
 
-    monkeypatch.setattr(module("native").load().maps.map_objects, "map_objects", forbidden)
     monkeypatch.setattr(module("solving.jobs"), "solved_anew", forbidden)
-    assert press(seams=True, texture="SCALES") == {"FINISHED"}
+    press(texture="SCALES")
+    monkeypatch.setattr(module("native").load().maps.map_objects, "map_objects", forbidden)
+    for texture in ("CHECKER", "WEAVE", "SCALES"):
+        assert press(seams=True, texture=texture) == {"FINISHED"}
 
 
 def test_cancelling_in_a_tiling_leaves_no_result():

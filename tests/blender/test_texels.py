@@ -26,6 +26,7 @@ from scenes import (
 
 LIKE = 1.1  # largest over smallest median density of parts whose squares have one size
 ROUNDED = 0.1  # relative: a tiling has whole numbers of tiles around, of 100 that are a few each
+TURNED = 0.2  # of one that turns, whose cones lie at centres of tiles: a tenth of lengths
 MEASURED = 0.03  # relative: the library takes the median over triangles, not quads
 FLAT = 1e-3  # relative: quads of the library are two triangles, and float32
 
@@ -125,14 +126,15 @@ def test_the_default_is_that_of_the_largest_part_whichever_is_active(press):
     assert found[1] == pytest.approx(wanted, rel=FLAT) and max(found) <= LIKE * min(found)
 
 
-def test_tiles_are_over_all_objects():
+@pytest.mark.parametrize(("turns", "rounded"), [("NONE", ROUNDED), ("FROM_TEXTURE", TURNED)])
+def test_tiles_are_over_all_objects(turns, rounded):
     objects = limbs(1.0, 2.0)
-    bpy.ops.uv.holomorphic_tile(tiles=300)
-    assert sum(in_space(obj) * area_in_space(obj) for obj in objects) == pytest.approx(300, rel=ROUNDED)
+    bpy.ops.uv.holomorphic_tile(tiles=300, turns=turns)
+    assert sum(in_space(obj) * area_in_space(obj) for obj in objects) == pytest.approx(300, rel=rounded)
     densities = [in_space(obj) for obj in objects]
     assert max(densities) <= LIKE * min(densities)
-    bpy.ops.uv.holomorphic_tile(tiles=300, equal=False)
-    assert [in_space(obj) * area_in_space(obj) for obj in objects] == pytest.approx([300, 300], rel=ROUNDED)
+    bpy.ops.uv.holomorphic_tile(tiles=300, equal=False, turns=turns)
+    assert [in_space(obj) * area_in_space(obj) for obj in objects] == pytest.approx([300, 300], rel=rounded)
 
 
 def test_poles_are_dragged_at_the_size_that_all_objects_have():

@@ -15,6 +15,7 @@ from scenes import (
     stored,
     stored_report,
     torus,
+    turned_jumps,
     uv,
 )
 
@@ -45,38 +46,6 @@ def tile(**options):
 
 def tilings(obj):
     return [part["tiling"] for part in stored_report(obj)["components"] if "tiling" in part]
-
-
-def turned_jumps(obj, turns):
-    """(n, 2) turns in whole k-th parts and the translations that are left over, of each inner edge of the written UV
-    layer: x' = R x + t at both of its ends."""
-    layer = uv(obj)
-    assert np.array_equal(layer, layer.astype(np.float32))
-    near, far = (each @ [1, 1j] for each in edge_sides(obj))
-    turn = np.exp(2j * np.pi / turns) ** np.arange(turns)
-    turn = np.array([1, 1j, -1, -1j])[:: 4 // turns] if turns in (2, 4) else turn
-    left = far[:, :, None] - turn * near[:, :, None]
-    off = np.abs(left[:, 0] - left[:, 1])
-    which = np.argmin(off, axis=1)
-    rows = np.arange(len(which))
-    return which, left[rows, 0, which], off[rows, which]
-
-
-def edge_sides(obj):
-    """Two (n, 2, 2): the UVs of the first and the second face at both ends of each inner edge."""
-    corners = np.empty(len(obj.data.loops), np.int32)
-    obj.data.loops.foreach_get("vertex_index", corners)
-    starts = np.empty(len(obj.data.polygons), np.int32)
-    obj.data.polygons.foreach_get("loop_start", starts)
-    following = np.arange(1, len(corners) + 1)
-    following[np.append(starts[1:], len(corners)) - 1] = starts
-    values, start = uv(obj), np.arange(len(corners))
-    is_down = corners > corners[following]
-    ends = np.where(is_down[:, None], np.stack([following, start], 1), np.stack([start, following], 1))
-    keys = corners[ends].astype(np.int64) @ [len(obj.data.vertices), 1]
-    order = np.argsort(keys, kind="stable")
-    first = np.flatnonzero(keys[order][1:] == keys[order][:-1])
-    return values[ends[order[first]]], values[ends[order[first + 1]]]
 
 
 @pytest.mark.parametrize("turns", [2, 4])
@@ -117,15 +86,89 @@ def test_cones_are_told_in_place_of_poles(turns):
     assert not any("poles:" in line for line in stored.summary(text))
 
 
-@pytest.mark.parametrize("operator", [run, tile])
-def test_a_first_click_is_only_shifted(operator):
-    """The checker could turn; what it shows at first does not."""
-    obj = torus()
-    operator(**({"main": "AUTOMATIC"} if operator is run else {}))
+def button(**options):
+    return run(main="AUTOMATIC", **options)
+
+
+@pytest.mark.parametrize("operator", [button, tile])
+def test_a_first_click_turns_as_the_checker_does(operator):
+    obj = ball()
+    operator()
     before = uv(obj)
-    operator(turns="NONE", **({"main": "AUTOMATIC"} if operator is run else {}))
+    operator(turns="QUARTER")
     assert np.array_equal(uv(obj), before)
+    assert [one["turns"] for one in tilings(obj)] == [4]
+
+
+@pytest.mark.parametrize("operator", [button, tile])
+def test_a_map_whose_texture_is_not_shown_is_only_shifted(operator):
+    """So that it fits what the artist will put on."""
+    obj = ball()
+    operator(checker=False)
     assert [one["turns"] for one in tilings(obj)] == [1]
+
+
+def test_large_meshes_turn_where_that_is_asked_for(monkeypatch):
+    """It takes longer than a first click may."""
+    obj = ball()
+    triangles = len(obj.data.loops) - 2 * len(obj.data.polygons)
+    for most, turns, expected in (
+        (triangles, "FROM_TEXTURE", 4),
+        (triangles - 1, "FROM_TEXTURE", 1),
+        (0, "QUARTER", 4),
+    ):
+        monkeypatch.setattr(module("operators.request"), "QUICK_TURNED", most)
+        tile(turns=turns)
+        assert [one["turns"] for one in tilings(obj)] == [expected]
+
+
+def test_the_best_map_of_an_even_ring_needs_no_cones():
+    obj = torus(thickness=0.1, bulge=0)
+    for turns in ("FROM_TEXTURE", "QUARTER"):
+        button(turns=turns)
+        assert [(one["turns"], one["poles"]) for one in tilings(obj)] == [(1, [])]
+    tile()
+    assert [one["turns"] for one in tilings(obj)] == [4]
+
+
+def test_only_what_changed_is_made_again(monkeypatch):
+    """Textures with the same turns share a map, and maps for others are kept beside it."""
+    ball()
+    library, made = module("native").load(), []
+    kind = library.forms.results.TurnedTiler
+
+    class Noted(kind):
+        def tile(self, *arguments, **options):
+            made.append(arguments)
+            return super().tile(*arguments, **options)
+
+    monkeypatch.setattr(library.forms.results, "TurnedTiler", Noted)
+    tile()
+    assert made
+    made.clear()
+    for options in ({"seams": True}, {"texture": "WEAVE"}, {"quarters": 1}, {"texture": "SCALES"}, {}):
+        assert tile(**options) == {"FINISHED"} and not made
+    tile(tiles=150)
+    assert made
+
+
+def test_undo_and_restore_take_a_map_that_turns_back():
+    obj = ball()
+    obj.data.uv_layers.new(name="Artist")
+    before = everything(obj)
+    bpy.ops.ed.undo_push(message="before")
+    tile()
+    assert tilings(obj)[0]["turns"] == 4
+    bpy.ops.ed.undo_push(message="after")
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects["Ball"]
+    assert everything(obj) == before
+    select(obj)
+    tile()
+    bpy.ops.uv.holomorphic_restore_materials()
+    assert everything(obj)["materials"] == before["materials"] and "Holomorphic" in obj.data.uv_layers
+    bpy.ops.uv.holomorphic_remove_maps()
+    assert [layer.name for layer in obj.data.uv_layers] == ["Artist"] and "holomorph_report" not in obj
 
 
 @pytest.mark.parametrize("texture", patterns.TEXTURES)

@@ -44,8 +44,8 @@ def shown_scale(obj):
     return obj.material_slots[0].material.node_tree.nodes["Checker Scale"].outputs[0].default_value
 
 
-def edge_jumps(obj):
-    """((n, 2) vertices of inner edges, (n, 2, 2) differences of the UVs of their two faces at each of these)."""
+def edge_sides(obj):
+    """((n, 2) vertices of inner edges, (n, 2, 2) UVs of their first face at these, and of their second one)."""
     corners, offsets = polygon_arrays(obj.data)
     following, values = next_corner(offsets), uv(obj)
     start, end = np.arange(len(corners)), following
@@ -54,7 +54,27 @@ def edge_jumps(obj):
     pairs = corners[ends].astype(np.int64)
     order = np.lexsort(pairs.T)
     same = np.flatnonzero((pairs[order][1:] == pairs[order][:-1]).all(axis=1))
-    return pairs[order[same]], values[ends[order[same + 1]]] - values[ends[order[same]]]
+    return pairs[order[same]], values[ends[order[same]]], values[ends[order[same + 1]]]
+
+
+def edge_jumps(obj):
+    """((n, 2) vertices of inner edges, (n, 2, 2) differences of the UVs of their two faces at each of these)."""
+    vertices, first, second = edge_sides(obj)
+    return vertices, second - first
+
+
+def turned_jumps(obj, turns):
+    """(n,) turns in whole k-th parts, the translations that are left over, and by how much these differ between both
+    ends, of each edge of `edge_sides`: x' = R x + t."""
+    _, *sides = edge_sides(obj)
+    near, far = (side.astype(float) @ [1, 1j] for side in sides)
+    turn = np.exp(2j * np.pi / turns) ** np.arange(turns)
+    turn = np.array([1, 1j, -1, -1j])[:: 4 // turns] if turns in (2, 4) else turn
+    left = far[:, :, None] - turn * near[:, :, None]
+    off = np.abs(left[:, 0] - left[:, 1])
+    which = np.argmin(off, axis=1)
+    rows = np.arange(len(which))
+    return which, left[rows, 0, which], off[rows, which]
 
 
 def face_densities(obj):
