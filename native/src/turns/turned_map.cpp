@@ -19,11 +19,13 @@ using Eigen::VectorXcd;
 constexpr int kFewTriangles = 4000, kMoreTriangles = 20'000;  // of the levels on which cones are searched for
 constexpr int kCompared = 3;                                  // of the cones found on the fewer
 constexpr int kTries = 3;                                     // of the nearest whole numbers
-constexpr int kManyTriangles = 100'000;                       // from which the first one that flips none is taken
-constexpr int kMostLevels = 4;                                // of half the tiles each, for which cones are searched
-constexpr int kFurtherApart = 2;                              // levels, where triangles are flipped
-constexpr double kHelps = 0.5;                                // of the wrong area: else no more is tried
-constexpr int kMantissa = 23;                                 // of single precision, less the sign
+// Parts of the area that are wrong: then other whole numbers do not help, or cones are not worth being evened.
+constexpr double kHopeless = 2e-3, kHopelessCones = 0.1;
+constexpr int kManyTriangles = 100'000;  // from which the first one that flips none is taken
+constexpr int kMostLevels = 4;           // of half the tiles each, for which cones are searched
+constexpr int kFurtherApart = 2;         // levels, where triangles are flipped
+constexpr double kHelps = 0.5;           // of the wrong area: else no more is tried
+constexpr int kMantissa = 23;            // of single precision, less the sign
 
 // Cones on a surface, from those of a level of it: #V.
 std::vector<int> carried(const mesh::Surface& surface, const tiling::CoarseLevel& level, const Cones& cones) {
@@ -127,8 +129,9 @@ class PlacedCones {
   };
   // The best of the maps by the nearest whole numbers.
   Judged best_map(double tiles, double evenness, Execution& execution) const;
-  // The energy of the map by its nearest whole numbers, as in evening/evening.h: what cones are compared by.
-  double strain(double tiles, double evenness, Execution& execution) const;
+  // What cones are compared by, of the map by their nearest whole numbers: the wrong area, if that is hopeless, and the
+  // energy as in evening/evening.h.
+  std::pair<double, double> strain(double tiles, double evenness, Execution& execution) const;
 
  private:
   std::vector<NearestMap::Rounded> nearest(double tiles) const;
@@ -196,11 +199,16 @@ std::vector<NearestMap::Rounded> PlacedCones::nearest(double tiles) const {
   return nearest_.round(std::sqrt(tiles / net_.whole_area / space_.lattice.second.imag()) * level_);
 }
 
-double PlacedCones::strain(double tiles, double evenness, Execution& execution) const {
+std::pair<double, double> PlacedCones::strain(double tiles, double evenness, Execution& execution) const {
   const NearestMap::Rounded rounded = nearest(tiles)[0];
-  const VectorXcd y = evened(nearest_.functions(rounded), rounded, evenness, execution);
-  const uv::UvArray laid = in_plane(space_.lattice, coordinates(y, rounded));
-  return evening::strain(*surface_, laid, kept(), evenness, execution);
+  VectorXcd y = nearest_.functions(rounded);
+  const auto laid = [&] { return in_plane(space_.lattice, coordinates(y, rounded)); };
+  double wrong = wrong_area(*surface_, net_, laid(), space_.lattice.k, missing_);
+  if (wrong <= kHopelessCones * net_.whole_area) {
+    wrong = 0;
+    y = evened(y, rounded, evenness, execution);
+  }
+  return {wrong, evening::strain(*surface_, laid(), kept(), evenness, execution)};
 }
 
 PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Execution& execution) const {
@@ -211,7 +219,9 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Executi
   Judged best;
   const int tries = std::min<int>(kTries, static_cast<int>(nearest.size()));
   const bool compares = net_.triangle_count() < kManyTriangles;
+  const double hopeless = kHopeless * net_.whole_area;
   for (int i = 0; i < tries && (compares || best.bad.first > 0); ++i) {
+    if (i > 0 && best.bad.first > hopeless) break;
     execution.stage("evening", 0.2 + 0.8 * i / tries, 0.2 + 0.8 * (i + 1) / tries);
     const VectorXcd y = nearest_.functions(nearest[i]);
     uv::UvArray uv = coordinates(evened(y, nearest[i], evenness, execution), nearest[i]);
@@ -244,11 +254,11 @@ std::vector<int> cones_of(const std::shared_ptr<const mesh::Surface>& surface, c
   std::vector<Cones> found = find_cones(*coarse.surface, wanted, execution);
   found.resize(std::min<std::size_t>(found.size(), kCompared));
   const Cones* best = nullptr;
-  double least = std::numeric_limits<double>::infinity();
+  std::pair<double, double> least;
   for (const Cones& cones : found) {
     execution.report(1);
     const PlacedCones placed(coarse.surface, wanted, cones.missing);
-    const double strain = placed.strain(wanted.tiles, evening::kUsualEvenness, execution);
+    const std::pair<double, double> strain = placed.strain(wanted.tiles, evening::kUsualEvenness, execution);
     if (best == nullptr || strain < least) least = strain, best = &cones;
   }
   return carried(*surface, fine,

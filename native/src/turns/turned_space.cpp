@@ -220,8 +220,6 @@ class Maker {
       std::erase_if(row, [](const auto& entry) { return entry.second == 0; });
       return row.empty();
     });
-    std::sort(rows.begin(), rows.end());
-    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
     return rows;
   }
 
