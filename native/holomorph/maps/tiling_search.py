@@ -42,9 +42,10 @@ REGULAR = 1.1
 
 POOR_TURNED = 2.0  # cost of a tiling that turns, above which one that is only shifted is tried: most cost 0.7 to 1.8
 
-# What rows that run along hard edges, and end there, are worth in the cost, which does not see them; and the triangles
-# up to which they are tried: objects that are made of such edges have few.
-LINED, MOST_LINED = 0.3, 20_000
+# What rows that run along hard edges, and end there, are worth in the cost, which does not see them: for lines as long
+# as the square root of the area, and at most. They are tried where there are as many, and up to so many triangles:
+# objects that are made of such edges have few.
+LINED, MOST_LINED, MOST_LINED_TRIANGLES = 0.1, 0.3, 20_000
 
 MOST_TURNED = 0.5  # radians from the direction that is asked for, where no whole tiles of one size are nearer to it
 MOST_STRETCHED = 1.35  # factor: whole tiles around a limb, from three on, are never further from the wanted size
@@ -143,14 +144,18 @@ class TilingSearch:
     def _lined(self, turned, size, turns, progress):
         """The tiling whose rows end at hard edges, or run along them, if it costs hardly more than the one that turns
         and loses nothing; None if none does."""
-        if len(self.surface.triangles) > MOST_LINED or not len(lines_of(self.surface)):
+        if len(self.surface.triangles) > MOST_LINED_TRIANGLES:
             return None
+        length = self.surface._native.edge_lengths[lines_of(self.surface)].sum() / math.sqrt(self.surface.area)
+        if length < 1:
+            return None
+        most = turned.cost + min(LINED * length, MOST_LINED)
         for lines in ("whole", "free"):
             try:
                 made = self._with(self._request.poles, size, progress, turns=turns, lines=lines)
             except REFUSALS:
                 continue
-            if made.quality.lost_part == 0 and made.cost < turned.cost + LINED:
+            if made.quality.lost_part == 0 and made.cost < most:
                 return made
         return None
 

@@ -26,6 +26,7 @@ LINED_TURNS = (2, 4)  # lines cross at right angles
 MOST_LOST = 0.5  # part of the area: nothing is left to look at
 LINES = ("none", "free", "whole")
 HARD = 40.0  # degrees by which a surface bends at an edge that is to be a line
+MOST_ENDS = 0.02  # of chains, for each of their edges
 USUAL_TILES, TILES_PER_HANDLE = 400, 64  # by default, at least
 
 
@@ -117,8 +118,11 @@ class TurnedTiler:
 
 
 def lines_of(surface: Surface) -> Integers:
-    """The edges that lines of the lattice run along: long chains of hard edges, and smooth boundaries, ascending."""
-    return _native.long_lines(surface._native, np.flatnonzero(is_hard(surface, HARD)))
+    """The edges that lines of the lattice run along: long chains of hard edges, and smooth boundaries, ascending. None
+    where chains end here and there: those are noise of a scan, or folds."""
+    edges = _native.long_lines(surface._native, np.flatnonzero(is_hard(surface, HARD)))
+    ends = np.count_nonzero(np.bincount(surface._native.edges[edges].ravel()) == 1)
+    return edges if ends <= MOST_ENDS * len(edges) else edges[:0]
 
 
 def checked_lines(lines: Any, turns: int) -> str:

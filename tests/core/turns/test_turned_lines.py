@@ -57,6 +57,10 @@ def cuboid(n):
     return Surface(np.array(list(number), float) * [0.2, 0.3, 0.15], faces)
 
 
+def sheet_faces():
+    return [[i + 21 * j, i + 1 + 21 * j, i + 22 + 21 * j, i + 21 + 21 * j] for j in range(20) for i in range(20)]
+
+
 @pytest.fixture(scope="module", params=SHAPES)
 def shape(request):
     return request.param, SHAPES[request.param]()
@@ -88,13 +92,22 @@ def test_lines_are_hard_edges_and_smooth_boundaries(shape):
 def test_short_chains_and_jagged_boundaries_are_no_lines():
     ball = families.geodesic_sphere(8)
     assert not len(lines_of(Surface(ball.vertices, ball.faces)))
-    grid = [[i + 21 * j, i + 1 + 21 * j, i + 22 + 21 * j, i + 21 + 21 * j] for j in range(20) for i in range(20)]
+    grid = sheet_faces()
     points = np.array([[i, j, 0.0] for j in range(21) for i in range(21)])
     whole = Surface(points, grid)
     assert len(lines_of(whole)) == 80
     jagged = [face for face in grid if 0 < face[0] % 21 < 19 or face[0] // 21 % 2]  # teeth at two ends
     used = np.unique(jagged)
     assert not len(lines_of(Surface(points[used], np.searchsorted(used, jagged))))
+
+
+def test_chains_that_end_are_no_lines():
+    """A sheet with two ridges that lead nowhere; and one whose ridges cross it."""
+    for first, last, lines in ((3, 17, 0), (0, 20, 80 + 2 * 20)):
+        x, y = (axis.ravel() for axis in np.meshgrid(np.arange(21), np.arange(21)))
+        is_raised = np.isin(x, (6, 14)) & (y >= first) & (y <= last)
+        sheet = Surface(np.column_stack([x, y, 0.8 * is_raised]), sheet_faces())
+        assert len(lines_of(sheet)) == lines
 
 
 @pytest.mark.parametrize("lines", ["free", "whole"])
