@@ -31,6 +31,8 @@ DENSE = "native:*CertainBounds*"
 DIGITS = "native:DoubleDouble*"
 SLIVERS = CORE + "mesh/test_slivers.py"
 WILD = CORE + "mesh/test_wild_vertices.py"
+TURNED = CORE + "turns/test_turned_tilings.py"
+LINES = CORE + "turns/test_turned_lines.py"
 
 
 class Mutation(NamedTuple):
@@ -236,4 +238,21 @@ MUTATIONS = (
     | of(PACKAGE + "mesh/cut_open.py", ("paths-stop-at-places", "SHORTEST = 1e-12", "SHORTEST = 0.0", SLIVERS))
     | of(PACKAGE + "mesh/hard_edges.py", ("slivers-own-normals", "[surface._native.sliver_owners()]", "", SLIVERS))
     | of(PACKAGE + "cutting/island_layout.py", ("same-place", "SAME = 1e-5", "SAME = 1e-6", SLIVERS))
+    | of(
+        ROOM + "turns/line_values.cpp",
+        ("lines-signs", "own.factor *= above.factor;", "", LINES),
+        ("lines-offsets", "add_to(own.offset, above.offset, own.factor);", "", LINES),
+    )
+    | of(
+        ROOM + "turns/lines.cpp",
+        ("lines-price", "kPrice = 5", "kPrice = 1", LINES),
+        ("lines-walk", "turned[via[v]] += n;", "turned[via[v]] -= n;", LINES),
+        ("lines-jagged", "kMostTurned = 3", "kMostTurned = 300", LINES),
+    )
+    | of(ROOM + "turns/turned_space.cpp", ("lines-parts", "% 2 == 0 ? 1 : 0;", "% 2 == 0 ? 0 : 1;", LINES))
+    | of(
+        ROOM + "evening/unknowns.cpp",
+        ("unknowns-turn", "2 * b + 1, weight * turn.imag()", "2 * b + 1, -weight * turn.imag()", TURNED),
+    )
+    | of(PACKAGE + "tiling/turned.py", ("lines-ends", "MOST_ENDS = 0.02", "MOST_ENDS = 0.2", LINES))
 )
