@@ -240,12 +240,12 @@ MUTATIONS = (
     | of(PACKAGE + "cutting/island_layout.py", ("same-place", "SAME = 1e-5", "SAME = 1e-6", SLIVERS))
     | of(
         ROOM + "turns/line_values.cpp",
-        ("lines-signs", "own.factor *= above.factor;", "", LINES),
+        ("lines-signs", "a.factor * b.factor, std::move(less)", "1, std::move(less)", LINES),
         ("lines-offsets", "add_to(own.offset, above.offset, own.factor);", "", LINES),
     )
     | of(
         ROOM + "turns/lines.cpp",
-        ("lines-price", "kPrice = 5", "kPrice = 1", LINES),
+        ("lines-price", "kPrice = 5", "kPrice = 0.2", LINES),
         ("lines-walk", "turned[via[v]] += n;", "turned[via[v]] -= n;", LINES),
         ("lines-jagged", "kMostTurned = 3", "kMostTurned = 300", LINES),
     )

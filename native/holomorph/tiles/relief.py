@@ -231,7 +231,7 @@ def symmetric(pixels: Reals, turns: int) -> Reals:
     if alike < ALIKE:
         raise ValueError(
             f"the heights do not look the same after {TURNED[turns]} about the middle of the picture, as the tiling "
-            f"does ({100 * max(alike, 0):.0f} %)"
+            f"does ({100 * max(alike, 0):.0f} %): make the map without turns"
         )
     return sum(turned) / turns
 
