@@ -68,12 +68,13 @@ std::vector<Complex> beside_lines(const Net& net, const std::vector<Point>& poin
   return field;
 }
 
-}  // namespace
-
+// The angle, less the nearest multiple of a k-th turn.
 double within_turn(double angle, int k) {
   const double unit = 2 * std::numbers::pi / k;
   return angle - unit * std::round(angle / unit);
 }
+
+}  // namespace
 
 double dual_weight(const Net& net, int side) { return 1 / std::clamp(net.weight[side], kLeast, kMost); }
 

@@ -31,9 +31,6 @@ std::vector<Complex> level_field(const Net& net, const std::vector<std::array<do
 /// The cones of a field: how it turns on the way around a vertex. @return #V, k-th turns that are missing
 std::vector<int> cones_of_field(const Net& net, const std::vector<Complex>& field, int k);
 
-/// The angle in (-pi / k, pi / k] that is one of a k-th turn more or less.
-double within_turn(double angle, int k);
-
 /// The weight of the difference of a field, or of frames, across a side.
 double dual_weight(const Net& net, int side);
 
