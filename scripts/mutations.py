@@ -249,6 +249,7 @@ MUTATIONS = (
         ("lines-walk", "turned[via[v]] += n;", "turned[via[v]] -= n;", LINES),
         ("lines-jagged", "kMostTurned = 3", "kMostTurned = 300", LINES),
     )
+    | of(ROOM + "turns/rounding.cpp", ("turned-sizes", "kOtherSize = 1;", "kOtherSize = 0;", TURNED))
     | of(ROOM + "turns/turned_space.cpp", ("lines-parts", "% 2 == 0 ? 1 : 0;", "% 2 == 0 ? 0 : 1;", LINES))
     | of(
         ROOM + "evening/unknowns.cpp",

@@ -21,6 +21,7 @@ constexpr double kRegular = 1e-10;    // of the mean diagonal: vertices of trian
 constexpr int kSizes = 9, kAngles = 25;
 constexpr Eigen::Index kColumns = 32;                   // solved for at once
 constexpr double kSpread = 0.12;                        // of ln size, to either side
+constexpr double kOtherSize = 1;                        // price of (ln size)^2: larger sizes alone would round better
 constexpr double kTurned = 6 * std::numbers::pi / 180;  // radians from level, to either side
 
 // A side of a triangle: y(b) turned less y(a) turned, the weight, and what it is to be for f = 1.
@@ -57,7 +58,7 @@ Complex turned_by(const TurnLattice& lattice, int r) {
 }
 
 NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& space, bool turns)
-    : unknowns_(space.unknowns), turns_(turns) {
+    : unknowns_(space.unknowns), turns_(turns), area_(net.whole_area) {
   const int count = unknowns_.count;
   const auto integers = space.offset.cols();
   const SparseComplex dq = differences(net, space);
@@ -133,13 +134,14 @@ std::vector<NearestMap::Rounded> NearestMap::round(Complex factor) const {
   std::vector<Rounded> found;
   const int angles = turns_ ? kAngles : 1;
   for (int i = 0; i < kSizes; ++i) {
-    const double size = std::exp(kSpread * (2.0 * i / (kSizes - 1) - 1));
+    const double ln_size = kSpread * (2.0 * i / (kSizes - 1) - 1), size = std::exp(ln_size);
     for (int j = 0; j < angles; ++j) {
       const double turned = turns_ ? kTurned * (2.0 * j / (kAngles - 1) - 1) : 0;
       const Complex f = factor * std::polar(size, turned);
       const VectorXd z0 = normal.solve(VectorXd(g_ * Eigen::Vector2d(f.real(), f.imag())));
       const lattice::IntegerVector z = lattice::nearest_plane(reduced, B_ * z0);
-      const double error = (B_ * (z0 - z.cast<double>())).squaredNorm() / std::norm(f);
+      const double error =
+          (B_ * (z0 - z.cast<double>())).squaredNorm() / (std::norm(f) * area_) + kOtherSize * ln_size * ln_size;
       const auto known = std::ranges::find_if(found, [&](const Rounded& one) { return one.z == z; });
       if (known == found.end())
         found.push_back({error, f, z});

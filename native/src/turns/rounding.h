@@ -20,7 +20,8 @@ class NearestMap {
   /// @throws SolverError @pre the others outlive it
   NearestMap(const Net& net, const Frames& frames, const TurnedSpace& space, bool turns);
 
-  /// A factor and whole numbers; error: how far they are from the map without whole numbers, over |f|^2.
+  /// A factor and whole numbers; error: how far they are from the map without whole numbers, over |f|^2 and the area,
+  /// and the price of another size than the one asked for.
   struct Rounded {
     double error = 0;
     Complex factor;
@@ -35,6 +36,7 @@ class NearestMap {
  private:
   const evening::Unknowns& unknowns_;
   const bool turns_;
+  const double area_;  // of the surface
   Eigen::SparseMatrix<double>
       rhs_;  // #unknowns x (2 + #z): for f = 1 and f = i, z = 0, and by what it falls for each z
   struct Solving {

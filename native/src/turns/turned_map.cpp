@@ -196,7 +196,7 @@ VectorXcd PlacedCones::evened(VectorXcd y, const NearestMap::Rounded& rounded, d
 }
 
 std::vector<NearestMap::Rounded> PlacedCones::nearest(double tiles) const {
-  return nearest_.round(std::sqrt(tiles / net_.whole_area / space_.lattice.second.imag()) * level_);
+  return nearest_.round(std::sqrt(tiles / net_.whole_area) * level_);
 }
 
 std::pair<double, double> PlacedCones::strain(double tiles, double evenness, Execution& execution) const {

@@ -176,6 +176,14 @@ def test_about_as_many_tiles_have_the_same_cones():
 
 
 @pytest.mark.parametrize("turns", [2, 4, 6])
+@pytest.mark.parametrize("mesh", [lambda: families.geodesic_sphere(12), bumps, block_of_three_holes])
+def test_there_are_about_as_many_tiles_as_asked(turns, mesh):
+    surface = surface_of(mesh())
+    made = tiling(surface, turns, 400)
+    assert made.quality.median_density * surface.area == pytest.approx(400, rel=0.15)
+
+
+@pytest.mark.parametrize("turns", [2, 4, 6])
 @pytest.mark.parametrize(("direction", "unit"), [("upright", 1j), ((0.0, 0.0, 2.0), 1)])
 def test_rows_run_as_asked(turns, direction, unit):
     """Level, or u along a vector, but for turns of the texture."""
