@@ -33,6 +33,8 @@ SLIVERS = CORE + "mesh/test_slivers.py"
 WILD = CORE + "mesh/test_wild_vertices.py"
 TURNED = CORE + "turns/test_turned_tilings.py"
 LINES = CORE + "turns/test_turned_lines.py"
+ASKED = CORE + "turns/test_asked_turns.py"
+GLB = CORE + "files/test_gltf.py"
 
 
 class Mutation(NamedTuple):
@@ -255,5 +257,12 @@ MUTATIONS = (
         ROOM + "evening/unknowns.cpp",
         ("unknowns-turn", "2 * b + 1, weight * turn.imag()", "2 * b + 1, -weight * turn.imag()", TURNED),
     )
+    | of(PACKAGE + "maps/tiling_search.py", ("lines-asked", "lines in CHOSEN_LINES and", "lines in () and", ASKED))
+    | of(
+        PACKAGE + "maps/piece_search.py",
+        ("cones-of-pieces", "tiling.seams, tiling.cones", "tiling.seams, zeros", ASKED),
+    )
+    | of(PACKAGE + "maps/mixed.py", ("cones-cost", "self.hard_length, cones)", "self.hard_length)", ASKED))
+    | of(PACKAGE + "batch/textured.py", ("centre-of-turns", "+ np.array(found.centre) / images", "", GLB))
     | of(PACKAGE + "tiling/turned.py", ("lines-ends", "MOST_ENDS = 0.02", "MOST_ENDS = 0.2", LINES))
 )

@@ -13,7 +13,6 @@ from ..maps.mapped import TileOptions
 from ..native import holomorph
 from ..scene import mesh_io
 
-TURNED = holomorph.quality.verdicts.TURNED
 SUMMARISED = 8  # parts that a panel shows
 SHOWN_PERIODS = 4  # likewise, of each part
 
@@ -148,9 +147,10 @@ def _sentence(part):
 
 
 def _tiling_lines(tiling):
-    if tiling.get("turns", 1) != 1:
+    turns = tiling.get("turns", 1)
+    if turns != 1:
         yield f"size range {tiling['size_range']:.3g}"
-        yield f"{TURNED[tiling['turns']]}, {len(tiling['cones'])} cones"
+        yield holomorph.quality.verdicts.special(0, turns, len(tiling["cones"]), tiling.get("lines", "none"))
         return
     yield f"angle distortion added by whole tiles: {tiling['added_distortion']:.4f}"
     yield f"size range {tiling['size_range']:.3g}"

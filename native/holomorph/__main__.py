@@ -8,17 +8,17 @@ import sys
 from pathlib import Path
 
 from . import Error, Surface, Verdict, __version__
-from .batch import mapping
-from .batch.recipe import Maps, Recipe, Tiles
+from .batch import mapping, textured
+from .batch.recipe import Maps, Output, Recipe, Tiles
 from .commands.compare_command import compare
 from .commands.console import Parser, ended, failed, tell, warn
 from .commands.relief_command import relief
-from .core.value import quoted
+from .core.value import plain, quoted
 from .files import formats, whole_file
 from .maps.report import repairs_report, whole_report
 from .maps.request import MAIN_MAPS
 from .mesh.checks import SOLVERS, check_options, check_thresholds
-from .tiling.turned import TURNS
+from .tiling.turned import AUTO, AUTOMATIC, LINES, TURNS, checked_lines
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3
 
@@ -44,6 +44,8 @@ def main(arguments=None):
     try:
         whole_file.check_places(options.mesh, options.output, [options.report], options.overwrite)
         _check_output(options.output, options.texture)
+        recipe = _recipe(options)
+        found = textured.symmetry(recipe)
     except (ValueError, OSError) as error:
         return failed(EXIT_USAGE, error)
     try:
@@ -52,7 +54,7 @@ def main(arguments=None):
     except ValueError as error:
         return failed(EXIT_REFUSED, error)
     try:
-        report = mapped(options)
+        report = mapped(options, textured.resolved(recipe, found), found)
     except (Error, OSError) as error:
         return failed(EXIT_REFUSED, error)
     return _status(report, options.strict)
@@ -73,8 +75,13 @@ def _parser():
     parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default without output: print it)")
     text = "default with --output: automatic, a seamless tiling where it is at least as even, else balanced"
     parser.add_argument("--main", choices=MAIN_MAPS, help=text)
-    text = "2, 4 or 6: sides of a cut may turn by a half, a quarter or a sixth, where the texture looks the same"
-    parser.add_argument("--turns", type=int, choices=TURNS, default=1, help=text)
+    text = (
+        "2, 4 or 6: sides of a cut may turn by a half, a quarter or a sixth, where the texture looks the same; auto: "
+    )
+    text += "as the image of --texture does, 1 without one"
+    parser.add_argument("--turns", type=_turns, choices=(*TURNS, AUTO), default=1, help=text)
+    text = "with --turns 2 or 4: let rows run along hard edges and smooth boundaries (free), or end there (whole)"
+    parser.add_argument("--lines", choices=(AUTOMATIC, *LINES), default=AUTOMATIC, help=text)
     parser.add_argument("--solver", default="auto", help=f"{', '.join(SOLVERS)}: as in holomorph.conformal_structure")
     text = "for --solver paper: numbers of faces at which to refine the forms, such as 1000,5000, or none"
     parser.add_argument("--thresholds", type=_thresholds, metavar="FACES", help=text)
@@ -82,6 +89,10 @@ def _parser():
     parser.add_argument("--strict", action="store_true", help="exit with 3 unless every map is good or fair")
     parser.add_argument("--version", action="version", version=__version__)
     return parser
+
+
+def _turns(text):
+    return int(text) if text.isdecimal() else text
 
 
 def _thresholds(text):
@@ -108,13 +119,20 @@ def _check_output(path, texture):
         raise ValueError(f"{path}: the folder {folder} does not exist")
 
 
-def mapped(options):
-    """The report of all components of the mesh file, as plain data; it and the mesh are written as the options say."""
-    surface = Surface.read(options.mesh)
-    warn(options.mesh, surface.repairs.notes)
+def _recipe(options):
+    """Raises ValueError for lines that maps with these turns cannot have."""
+    if options.turns != AUTO:
+        checked_lines(options.lines, options.turns, AUTOMATIC)
     main = options.main or ("automatic" if options.output else "balanced")
     maps = Maps(main=main, solver=options.solver, thresholds=options.thresholds)
-    recipe = Recipe(maps, Tiles(turns=options.turns))
+    return Recipe(maps, Tiles(turns=options.turns, lines=options.lines), output=Output(texture=options.texture))
+
+
+def mapped(options, recipe, found):
+    """The report of all components of the mesh file, as plain data; it and the mesh are written as the options say.
+    found : `textured.symmetry` of the recipe"""
+    surface = Surface.read(options.mesh)
+    warn(options.mesh, surface.repairs.notes)
     parts = mapping.map_parts(surface, recipe, threads=options.threads)
     reports = [part.report for part in parts] + mapping.refused_reports(surface)
     report = {
@@ -123,10 +141,12 @@ def mapped(options):
         "faces": len(surface.face_offsets) - 1,
         **whole_report([part.map for part in parts if part.map], reports, surface.repairs),
         "repairs": repairs_report(surface.repairs),
+        "texture": plain(found and vars(found)),
         "components": reports,
     }
     if options.output and report["verdict"]:
-        surface.write(options.output, mapping.main_uv(surface, parts, recipe.maps), options.texture)
+        uv = mapping.main_uv(surface, parts, recipe.maps)
+        surface.write(options.output, textured.moved(uv, surface, parts, recipe, found), options.texture)
     _write(report, options)  # last: what it tells of is in the file
     return report
 

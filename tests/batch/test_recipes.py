@@ -8,7 +8,7 @@ import holomorph
 import numpy as np
 import pytest
 from batch_runs import run, torus_obj
-from holomorph.batch import mapping, recipe
+from holomorph.batch import mapping, recipe, textured
 from holomorph.batch.errors import UsageError
 
 
@@ -235,3 +235,37 @@ def test_any_value_is_refused_by_name_or_maps_or_leaves_parts_without_one(table,
             mapped(torus, **{table: {name: value}})
         except (UsageError, holomorph.Error) as error:
             assert 0 < len(str(error)) < 300
+
+
+def test_maps_turn_as_the_texture_does(tmp_path):
+    """The report and the overview tell by what."""
+    source = torus_obj(tmp_path / "torus.obj")
+    (tmp_path / "recipe.toml").write_text(
+        "[maps]\nmain = 'seamless'\n[tiling]\nturns = 'auto'\n[output]\nformats = ['glb']\ntexture = 'checker'\n"
+    )
+    result = run(source, "--out", tmp_path / "out", "--recipe", tmp_path / "recipe.toml")
+    assert result.returncode == 0, result.stderr
+    report = json.loads((tmp_path / "out/assets/torus.obj/report.json").read_text())
+    cones = len(report["components"][0]["tiling"]["cones"])
+    assert report["components"][0]["tiling"]["turns"] == report["texture"]["turns"] == 4
+    assert f"seamless tiling, quarter turns, {cones} cones" in (tmp_path / "out/index.html").read_text()
+
+
+def test_without_a_texture_maps_are_shifted(torus):
+    wanted = textured.resolved(recipe.of({"tiling": {"turns": "auto", "lines": "free"}}), None)
+    assert (wanted.tiling.turns, wanted.tiling.lines) == (1, "automatic")
+    (part,) = mapping.map_parts(torus, wanted)
+    assert part.map.turns == 1
+
+
+@pytest.mark.parametrize(
+    ("tiling", "message"),
+    [
+        ({"turns": 3}, 'tiling.turns is 3; 1, 2, 4, 6 or "auto" is needed'),
+        ({"lines": "all"}, "tiling.lines is 'all'; one of automatic, none, free, whole is needed"),
+        ({"lines": "whole", "turns": 6}, 'tiling.lines = "whole" needs tiling.turns = 2, 4 or "auto"'),
+    ],
+)
+def test_turns_and_lines_are_checked(tiling, message):
+    with pytest.raises(UsageError, match=message):
+        recipe.of({"tiling": tiling})

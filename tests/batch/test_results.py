@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from batch_runs import BALANCED, outputs, run, torus_obj
 from holomorph.batch import picture
-from holomorph.files import formats
+from holomorph.files import formats, textures
 from holomorph.maps.request import EVENNESS
 
 EVERYTHING = """
@@ -121,6 +121,15 @@ def test_a_picture_shows_what_is_in_front():
     assert middle // picture.SHADES == 2 and corner // picture.SHADES in (0, 1)
     assert colours[0, 0] == picture.BACKGROUND
     assert content == picture.png(surface, uv, ~near, "Y")
+
+
+def test_a_picture_of_a_map_that_turns_has_the_middle_of_a_square_at_whole_uvs():
+    """About which a quarter turn leaves the checker."""
+    square = holomorph.Surface(np.eye(4)[:, :3], [[0, 1, 2, 3]])
+    uv, is_mapped = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) / 4.0, np.ones(2, bool)
+    half = 0.5 / textures.squares(square, uv, is_mapped)
+    assert picture.png(square, uv, is_mapped, "Y", True) == picture.png(square, uv + half, is_mapped, "Y")
+    assert picture.png(square, uv, is_mapped, "Y", True) != picture.png(square, uv, is_mapped, "Y")
 
 
 def decoded(content):

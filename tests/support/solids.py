@@ -30,3 +30,25 @@ def bracket():
     cells[1:, :, 1:] = False
     cells[0, 1:3, 2] = False
     return surface_of(families.voxel_surface(cells, ((0, 0),)))
+
+
+def revolved(*profile, sides=32, step=0.08):
+    """A surface of revolution; profile: (radius, height) at its corners, closed where the radius is 0."""
+    ends = zip(profile, profile[1:])
+    parts = [
+        np.linspace(a, b, max(2, round(np.hypot(b[0] - a[0], b[1] - a[1]) / step)), endpoint=False) for a, b in ends
+    ]
+    rows = np.concatenate([*parts, [profile[-1]]])
+    angles = 2 * np.pi * np.arange(sides) / sides
+    points, rings = [], []
+    for radius, height in rows:
+        ring = angles if radius > 0 else angles[:1]
+        rings.append(len(points) + np.arange(len(ring)))
+        points.extend(np.column_stack([radius * np.cos(ring), radius * np.sin(ring), np.full(len(ring), height)]))
+    faces = []
+    for below, above in zip(rings, rings[1:]):
+        for i in range(sides):
+            near, far = [ring[[i % len(ring), (i + 1) % len(ring)]] for ring in (below, above)]
+            corners = [near[0], near[1], far[1], far[0]]
+            faces.append(list(dict.fromkeys(int(v) for v in corners)))
+    return Surface(np.array(points), faces)

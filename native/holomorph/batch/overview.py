@@ -9,7 +9,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from ..commands.console import shown
-from ..quality.verdicts import LEVELS, Verdict
+from ..quality.verdicts import LEVELS, Verdict, special
 from .errors import DONE
 from .journal import noted
 
@@ -84,8 +84,11 @@ def _brief(texts):
 
 
 def _description(part):
-    poles = len(part["tiling"]["poles"]) if "tiling" in part else 0
-    return f"seamless tiling, {poles} pole{'s' * (poles != 1)}" if "tiling" in part else part["description"]
+    if "tiling" not in part:
+        return part["description"]
+    tiling = part["tiling"]
+    named = special(len(tiling["poles"]), tiling["turns"], len(tiling["cones"]), tiling["lines"])
+    return f"seamless tiling, {named}"
 
 
 def _data_address(picture):

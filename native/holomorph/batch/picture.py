@@ -15,10 +15,11 @@ BACKGROUND = SHADES * len(COLOURS)  # in the palette, transparent
 DEPTHS = 2**30  # steps of the z-buffer
 
 
-def png(surface, uv, is_mapped, up):
+def png(surface, uv, is_mapped, up, is_turned=False):
     """The picture as an indexed PNG file.
 
     uv : (#C, 2); is_mapped : (#T,) bool, triangles that the checker covers; up : "Y" or "Z"
+    is_turned : the map turns about whole UVs, at which the middle of a square then lies
     """
     points, triangles = _projected(surface.vertices, up), surface.triangles
     corners, texture = points[triangles], uv[surface.triangle_corners]
@@ -29,8 +30,8 @@ def png(surface, uv, is_mapped, up):
     pixels, winners = _visible(corners[seen], planes)
     if len(pixels):
         count = textures.squares(surface, uv, is_mapped)
-        u, v = (_at(planes[winners, axis], pixels) for axis in (1, 2))
-        colour = ((np.floor(u * count) + np.floor(v * count)) % 2).astype(np.uint8)
+        u, v = (_at(planes[winners, axis], pixels) * count + 0.5 * is_turned for axis in (1, 2))
+        colour = ((np.floor(u) + np.floor(v)) % 2).astype(np.uint8)
         colour[~is_mapped[seen[winners]]] = 2
         image[pixels] = colour * SHADES + _shades(normals[seen[winners]])
     return _encoded(image.reshape(SIZE, SIZE)[::-1])

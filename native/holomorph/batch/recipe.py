@@ -17,7 +17,8 @@ from ..files import formats, textures, whole_file
 from ..maps.request import EVENNESS, MAIN_MAPS
 from ..mesh.checks import SOLVERS, as_float
 from ..tiling import tilings
-from ..tiling.turned import TURNS
+from ..tiling.turned import AUTO, AUTOMATIC, LINED_TURNS, LINES, TURNS
+from . import textured
 from .errors import UsageError
 
 BOUNDARIES = ("natural", "double_cover", "free")
@@ -117,7 +118,8 @@ class Tiles:
     max_turn: float = _number(0.2, "an angle of at least 0 radians", lambda value: value >= 0)
     evenness: float = _number(EVENNESS, "a number from 0 to 1", lambda value: 0 <= value <= 1)
     max_added: float | None = _optional_number("an angle distortion of at least 1", lambda value: value >= 1)
-    turns: int = _option(1, "1, 2, 4 or 6", lambda value: _is_count(value) and value in TURNS)
+    turns: int | str = _option(1, f'1, 2, 4, 6 or "{AUTO}"', lambda v: v == AUTO or (_is_count(v) and v in TURNS))
+    lines: str = _one_of((AUTOMATIC, *LINES), AUTOMATIC)  # at which rows end, or along which they run
 
 
 @dataclass(frozen=True)
@@ -171,7 +173,9 @@ def read(path):
         raise UsageError(f"{path}: this is not TOML: {shortened(str(error))}") from error
     try:
         recipe = of(content)
-        return replace(recipe, output=_with_texture(recipe.output, Path(path).resolve().parent))
+        recipe = replace(recipe, output=_with_texture(recipe.output, Path(path).resolve().parent))
+        textured.symmetry(recipe)  # before there is work
+        return recipe
     except OSError as error:
         raise UsageError(f"{path}: {os.fsdecode(error.filename)}: {error.strerror}") from error
     except (UsageError, ValueError) as error:
@@ -230,5 +234,7 @@ def _check_together(recipe):
         raise UsageError("maps.residues and maps.poles differ in length")
     if recipe.output.texture is not None and not set(formats.TEXTURED) & set(recipe.output.formats):
         raise UsageError(f"output.texture needs one of output.formats to be {' or '.join(formats.TEXTURED)}")
+    if recipe.tiling.lines in ("free", "whole") and recipe.tiling.turns not in (*LINED_TURNS, AUTO):
+        raise UsageError(f'tiling.lines = "{recipe.tiling.lines}" needs tiling.turns = 2, 4 or "{AUTO}"')
     if recipe.tiling.density is not None and recipe.tiling.tiles:
         raise UsageError("tiling.density and tiling.tiles cannot be combined")

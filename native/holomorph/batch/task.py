@@ -10,10 +10,11 @@ import numpy as np
 
 from .. import ProgressiveMesh, Surface, __version__
 from .._native import Error, InvalidMesh
+from ..core.value import plain
 from ..files import formats, textures
 from ..maps.conformal_image import conformal_image
 from ..maps.report import repairs_report, whole_report
-from . import blend, mapping, picture
+from . import blend, mapping, picture, textured
 from .errors import DONE, REFUSED
 from .recipe import Recipe
 
@@ -70,7 +71,8 @@ def _mapped(task):
     """The report, the files, and the timings of each part, which are not results: they differ from run to run."""
     if task.problem:
         raise InvalidMesh(task.problem)
-    recipe = task.recipe
+    found = textured.symmetry(task.recipe)
+    recipe = textured.resolved(task.recipe, found)
     surface, seams = _read(task.path, recipe.output.up)
     parts = mapping.map_parts(surface, recipe, seams, task.threads)
     uv = mapping.main_uv(surface, parts, recipe.maps)
@@ -83,11 +85,14 @@ def _mapped(task):
         "faces": len(surface.face_offsets) - 1,
         **whole_report([part.map for part in parts if part.map], reports, surface.repairs),
         "repairs": repairs_report(surface.repairs),
+        "texture": plain(found and vars(found)),
         "components": reports,
     }
-    files = {"picture.png": picture.png(surface, uv, _is_mapped(surface, parts), surface.up)}
-    if any(part.map for part in parts):
-        files |= _files(task, surface, uv, parts)
+    maps = [part.map for part in parts if part.map]
+    is_turned = any(made.turns != 1 for made in maps)
+    files = {"picture.png": picture.png(surface, uv, _is_mapped(surface, parts), surface.up, is_turned)}
+    if maps:
+        files |= _files(task, surface, textured.moved(uv, surface, parts, recipe, found), parts)
     return content, files, timings
 
 

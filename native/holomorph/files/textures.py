@@ -69,10 +69,15 @@ def squares(surface, uv, is_mapped):
     return int(min(max(2 * round(ACROSS / (diagonal * np.sqrt(density)) / 2), 2), MOST_SQUARES))
 
 
-def _checker(surface, uv):
-    """A checker in one UV unit, a PNG file. Triangles whose corners have one UV have no map, and do not count."""
+def checker_squares(surface, uv):
+    """Squares of the image of a checker, a side. Triangles whose corners have one UV have no map, and do not count."""
     has_extent = np.ptp(uv[surface.triangle_corners], axis=1).any(axis=1)
-    count = min(squares(surface, uv, has_extent), MOST_SQUARES_OF_IMAGE)
+    return min(squares(surface, uv, has_extent), MOST_SQUARES_OF_IMAGE)
+
+
+def _checker(surface, uv):
+    """A checker in one UV unit, a PNG file."""
+    count = checker_squares(surface, uv)
     place = np.arange(count * (SIDE // count)) // (SIDE // count)
     image = ((place[::-1, None] + place) % 2).astype(np.uint8)
     return indexed_png(image, np.array(COLOURS, np.uint8))

@@ -23,7 +23,7 @@ from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from ..tiling.tiling import Tiler
 from ..tiling.tilings import Poles, Tiling, asked_poles
-from ..tiling.turned import LATTICE, TurnedTiler, check_fits, checked_lines, checked_turns
+from ..tiling.turned import LATTICE, TurnedTiler, asked_turns, check_fits, checked_lines
 from .solver_report import Residuals, SolverReport
 
 PLACING = 0.6  # part of the work on a tiling, for finding the poles
@@ -112,7 +112,8 @@ class Structure(Value):
         size_counts: bool = False,
         allowed: ArrayLike | None = None,
         moves: Mapping[int, int] | None = None,
-        turns: int = 1,
+        turns: int | str = 1,
+        texture: ArrayLike | None = None,
         lines: str = "none",
         surface: Surface | None = None,
         progress: Progress | None = None,
@@ -145,7 +146,9 @@ class Structure(Value):
 
         turns : 2, 4 or 6 where the texture looks the same after a half, a quarter or a sixth turn: then the two sides
             of a cut may turn, too. There are no poles; cones, where three or five squares meet, make the density more
-            even. The choices of poles, lattice, turn, boundary and max_added do not go with it
+            even. The choices of poles, lattice, turn, boundary and max_added do not go with it. "auto" for what
+            `image_turns` finds in the texture, 1 without one
+        texture : pixels, as in `image_turns`, for "auto". Its centre of turns belongs at the corners of tiles
         lines : "free" for rows that run along long hard edges and smooth boundaries, "whole" for rows that end there as
             well, where turns is 4, or 2 and the edges suit it; "none"
 
@@ -155,7 +158,7 @@ class Structure(Value):
         evenness = checked_evenness(evenness)
         tiles = tiles if density is None else self._tiles_of(density, tiles)
         placing, rounding = scaled(progress, 0.0, PLACING), scaled(progress, PLACING, 1.0)
-        turns = checked_turns(turns)
+        turns = asked_turns(turns, texture)
         lines = checked_lines(lines, turns)
         if turns != 1:
             chosen = {"poles": (poles, "auto", 0), "turn": (turn, 0.0), "boundary": (boundary, "automatic")}

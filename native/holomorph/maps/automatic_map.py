@@ -11,7 +11,7 @@ from ..core.array_types import Progress
 from ..mesh.checks import check_list, check_type
 from ..mesh.surface import Surface
 from ..tiling.tiling import Poles
-from ..tiling.turned import checked_turns
+from ..tiling.turned import AUTOMATIC, asked_turns, checked_lines
 from .automatic_structure import AnyStructure
 from .map import Map
 from .map_objects import map_objects
@@ -35,7 +35,9 @@ def automatic_map(
     turn: float | None = None,
     max_turn: float = 0.2,
     max_added: float | None = None,
-    turns: int = 1,
+    turns: int | str = 1,
+    texture: ArrayLike | None = None,
+    lines: str = AUTOMATIC,
     evenness: float = EVENNESS,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -53,7 +55,8 @@ def automatic_map(
         call with other tiles, lattice or direction is quick
     main : "automatic"; "seamless" for a tiling in any case; "untiled" for the best of the other maps; "balanced" for a
         map of forms, as when something about the structure was chosen
-    tiles, poles, lattice, boundary, turn, max_turn, max_added, turns : of tilings, as in `Structure.tile`
+    tiles, poles, lattice, boundary, turn, max_turn, max_added, turns, texture : of tilings, as in `Structure.tile`
+    lines : likewise, where they can be made; "automatic" for those that cost little
     density, density_tolerance : tiles per unit of area, and the relative amount by which whole tiles may miss it; where
         they miss it by more, the map is not a tiling
     direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
@@ -74,7 +77,7 @@ def automatic_map(
     """
     check_type(surface, Surface)
     options = {"lattice": lattice, "boundary": boundary, "turn": turn, "max_turn": max_turn, "max_added": max_added}
-    options |= {"turns": checked_turns(turns)}
+    options |= _turning(turns, texture, lines)
     request = Request(surface, structure, main, poles, evenness, direction, options=options)
     size = SizePolicy.of([surface], tiles, density, density_tolerance)
     (((made,), _),) = map_objects([[request]], size, threads, progress)
@@ -94,6 +97,9 @@ def automatic_maps(
     allowed: ArrayLike | None = None,
     moves: Sequence[tuple[int, int]] = (),
     direction: ArrayLike | str | None = "upright",
+    turns: int | str = 1,
+    texture: ArrayLike | None = None,
+    lines: str = AUTOMATIC,
     evenness: float = EVENNESS,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -116,7 +122,7 @@ def automatic_maps(
     poles : "auto", a number for each part, or a list of vertices; "auto" on parts without any
     allowed : (#V,) bool, where poles may be that are not chosen; parts without such vertices get none
     moves : (index of a pole in the tiling of its part, vertex) for each pole that is moved after the rounding
-    direction, evenness, options, threads, progress : as in `automatic_map`
+    direction, turns, texture, lines, evenness, options, threads, progress : as in `automatic_map`
 
     Raises ValueError and TypeError for arguments that do not fit; MemoryError; Cancelled. What a part itself raises
     takes the place of its map.
@@ -136,6 +142,7 @@ def automatic_maps(
         check_list(main, "main")
     check_list(moves, "moves")
     mains = [main] * len(parts) if isinstance(main, str) else main
+    options |= _turning(turns, texture, lines)
     asked = MeshRequest(
         poles=poles, allowed=allowed, moves=moves, direction=direction, evenness=evenness, options=options
     )
@@ -145,3 +152,9 @@ def automatic_maps(
         if isinstance(found, MemoryError):
             raise found
     return made
+
+
+def _turning(turns, texture, lines):
+    """The options of `Structure.tile` that say how tilings turn; `AUTOMATIC` lines besides."""
+    turns = asked_turns(turns, texture)
+    return {"turns": turns, "lines": checked_lines(lines, turns, AUTOMATIC)}

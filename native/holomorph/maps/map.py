@@ -126,23 +126,27 @@ class Map(Value):
     @property
     def turns(self) -> int:
         """2, 4 or 6 where the UVs may turn by this part of a full turn across a seam, see `Tiling.turns`; else 1."""
-        tilings = [self.tiling] if self.tiling else self.mixed.tilings if self.mixed else []
-        return max((made.turns for made in tilings), default=1)
+        return max((made.turns for made in self._tilings), default=1)
 
     @property
     def cones(self) -> Integers:
-        """(k,) vertices with another angle around them than elsewhere, of a tiling that turns."""
-        return self.tiling.cones if self.tiling else np.empty(0, np.int64)
+        """(k,) vertices with another angle around them than elsewhere, of all tilings that turn."""
+        return arrays.frozen(np.concatenate([np.empty(0, np.int64), *(made.cones for made in self._tilings)]))
 
     @property
     def cone_angles(self) -> Reals:
         """(k,) the angles around `cones` in full turns: 3/4 where three squares meet."""
-        return self.tiling.cone_angles if self.tiling else np.empty(0)
+        return arrays.frozen(np.concatenate([np.empty(0), *(made.cone_angles for made in self._tilings)]))
 
     @property
     def jumps(self) -> Integers:
-        """(#S, 3) turns and translations across `seams`, of a tiling that turns, see `Tiling.jumps`."""
-        return self.tiling.jumps if self.tiling else np.empty((0, 3), np.int64)
+        """(k, 3) turns and translations of the UVs, see `Tiling.jumps`: across `seams` of a tiling that turns; of a map
+        in pieces across the seams of those of its tilings that do, one after the other."""
+        return arrays.frozen(np.concatenate([np.empty((0, 3), np.int64), *(made.jumps for made in self._tilings)]))
+
+    @property
+    def _tilings(self):
+        return [self.tiling] if self.tiling else self.mixed.tilings if self.mixed else ()
 
     @cached_property
     def tiled(self) -> TiledSurface:

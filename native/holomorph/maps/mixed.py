@@ -38,7 +38,8 @@ class Mixed(Value):
     @property
     def cost(self) -> float:
         """The cost to the eye, see `appearance.cost`."""
-        return cost(self.quality, len(self.poles), self.soft_length, self.hard_length)
+        cones = sum(len(tiling.cones) for tiling in self.tilings)
+        return cost(self.quality, len(self.poles), self.soft_length, self.hard_length, cones)
 
     def _facts(self):
         return [counted(len(self.tilings), "tiling"), *self.quality._facts()]

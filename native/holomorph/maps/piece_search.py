@@ -203,8 +203,9 @@ def mixed_map(surface: Surface, structure: AnyStructure, pieces: Sequence[Map], 
 
 def _of_part(tiling, vertex_index):
     zeros, orders = tiling.zeros
-    poles, zeros, seams = (arrays.frozen(vertex_index[own]) for own in (tiling.poles, zeros, tiling.seams))
-    return replace(tiling, poles=poles, zeros=(zeros, orders), seams=seams)
+    own = tiling.poles, zeros, tiling.seams, tiling.cones
+    poles, zeros, seams, cones = (arrays.frozen(vertex_index[each]) for each in own)
+    return replace(tiling, poles=poles, zeros=(zeros, orders), seams=seams, cones=cones)
 
 
 def _seams(surface, pieces):

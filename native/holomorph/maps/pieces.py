@@ -140,7 +140,19 @@ def opened(made: Map, surface: Surface) -> Map:
         return made
     uv = arrays.frozen(made.uv[: len(surface.corner_vertices)])
     quality = replace(Quality.of(surface._native, uv, 0), unseen_angle=made.quality.unseen_angle)
-    return replace(made, surface=surface, uv=uv, quality=quality, tiling=replace(made.tiling, uv=uv, quality=quality))
+    tiling = replace(_inside(made.tiling, surface), uv=uv, quality=quality)
+    return replace(made, surface=surface, uv=uv, quality=quality, tiling=tiling)
+
+
+def _inside(tiling, surface):
+    """The tiling without the seams that ran through windows, and the cones at their rims."""
+    count, rims = len(surface.vertices), boundary_edges(surface)
+    is_inner = np.isin(edge_keys(surface._native.edges, count), edge_keys(rims, count), invert=True)
+    is_seam = np.isin(edge_keys(tiling.seams, count), edge_keys(surface._native.edges[is_inner], count))
+    is_cone = np.isin(tiling.cones, rims, invert=True)
+    parts = {"seams": tiling.seams[is_seam], "cones": tiling.cones[is_cone], "cone_angles": tiling.cone_angles[is_cone]}
+    parts["jumps"] = tiling.jumps[is_seam] if len(tiling.jumps) else tiling.jumps
+    return replace(tiling, **{name: arrays.frozen(values) for name, values in parts.items()})
 
 
 def _loops(start, end, count):

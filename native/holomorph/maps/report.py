@@ -96,6 +96,7 @@ def _tiling_report(made, vertex_index):
             "turns": made.turns,
             "cones": vertex_index[made.cones],
             "cone_angles": made.cone_angles,
+            "lines": made.lines,
         }
     )
 

@@ -17,7 +17,7 @@ from ..core.progress import scaled
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from ..tiling.tilings import Tiling, generators
-from ..tiling.turned import LATTICE, LINED_TURNS, lines_of
+from ..tiling.turned import AUTOMATIC, LATTICE, LINED_TURNS, lines_of
 from .arrangement import on_grid
 from .automatic_structure import AnyStructure
 from .map import Map
@@ -46,6 +46,7 @@ POOR_TURNED = 2.0  # cost of a tiling that turns, above which one that is only s
 # as the square root of the area, and at most. They are tried where there are as many, and up to so many triangles:
 # objects that are made of such edges have few.
 LINED, MOST_LINED, MOST_LINED_TRIANGLES = 0.1, 0.3, 20_000
+CHOSEN_LINES = ("whole", "free")
 
 MOST_TURNED = 0.5  # radians from the direction that is asked for, where no whole tiles of one size are nearer to it
 MOST_STRETCHED = 1.35  # factor: whole tiles around a limb, from three on, are never further from the wanted size
@@ -122,17 +123,20 @@ class TilingSearch:
     def _of_tiles(self, size, progress):
         """One that turns where that is asked for; one that is only shifted where that is impossible, or where the other
         is poor or loses triangles and it costs less: its jumps are symmetries of the texture, too."""
-        turns = self._request.options.get("turns", 1)
+        turns, lines = self._request.options.get("turns", 1), self._request.options.get("lines", AUTOMATIC)
         if turns == 1:
             return self._shifted(size, progress)
         step, size = scaled(progress, 1.0, 1.0), size | ({"lattice": LATTICE[turns]} if turns in LATTICE else {})
+        if lines in CHOSEN_LINES and len(lines_of(self.surface)):
+            if lined := self._with_turns(size, progress, turns, lines):
+                return lined
+            progress = step
         if (regular := self._regular(size, step)) is not None:
             return regular
-        try:
-            turned = self._with(self._request.poles, size, progress, turns=turns)
-        except REFUSALS:
+        turned = self._with_turns(size, progress, turns)
+        if turned is None:
             return self._shifted(size, step)
-        if turns in LINED_TURNS and (lined := self._lined(turned, size, turns, step)):
+        if lines == AUTOMATIC and turns in LINED_TURNS and (lined := self._lined(turned, size, turns, step)):
             return lined
         if turned.quality.lost_part == 0 and turned.cost < POOR_TURNED:
             return turned
@@ -150,14 +154,18 @@ class TilingSearch:
         if length < 1:
             return None
         most = turned.cost + min(LINED * length, MOST_LINED)
-        for lines in ("whole", "free"):
-            try:
-                made = self._with(self._request.poles, size, progress, turns=turns, lines=lines)
-            except REFUSALS:
-                continue
-            if made.quality.lost_part == 0 and made.cost < most:
+        for lines in CHOSEN_LINES:
+            made = self._with_turns(size, progress, turns, lines)
+            if made and made.quality.lost_part == 0 and made.cost < most:
                 return made
         return None
+
+    def _with_turns(self, size, progress, turns, lines="none"):
+        """None where there is none."""
+        try:
+            return self._with(self._request.poles, size, progress, turns=turns, lines=lines)
+        except REFUSALS:
+            return None
 
     def _regular(self, size, progress):
         """The tiling without poles where the best map is asked for and needs no cones; else None."""

@@ -28,6 +28,7 @@ SAME_SIZE = 1.049  # largest over smallest side of squares of parts that is not 
 OVERLAPPING = (1e-6, 0.01, 0.2)  # part of an island that covers itself: less is rounding; it can be textured, not baked
 
 TURNED = {2: "half turns", 4: "quarter turns", 6: "sixth turns"}  # of tilings, by `Tiling.turns`
+LINED = {"free": "rows run along edges", "whole": "rows end at edges"}  # by `Tiling.lines`
 EVENNESS = ("even", "fairly even", "uneven", "very uneven")
 SHEAR = (None, "slightly sheared", "sheared", "badly sheared")
 LONG = 10.0  # square of the longest side over twice the area of a long thin triangle; 1.2 where it is equilateral
@@ -67,7 +68,13 @@ class Verdict:
 
 
 def verdict(
-    quality: Quality, poles: int | None = None, added_distortion: float = 1.0, *, turns: int = 1, cones: int = 0
+    quality: Quality,
+    poles: int | None = None,
+    added_distortion: float = 1.0,
+    *,
+    turns: int = 1,
+    cones: int = 0,
+    lines: str = "none",
 ) -> Verdict:
     """The `Verdict` on a map with this `Quality`.
 
@@ -76,7 +83,7 @@ def verdict(
     Of the shear that evening added, what is not seen does not count.
 
     poles, added_distortion : of a seamless tiling, how many it has, and `Tiling.added_distortion`; None for other maps
-    turns, cones : of a tiling that turns, `Tiling.turns` and how many cones it has
+    turns, cones, lines : of a tiling that turns, `Tiling.turns`, how many cones it has, and `Tiling.lines`
 
     Raises ValueError for an added distortion that is no number.
     Source: ours; the limits were chosen on pictures of 63 meshes, docs/python/verdicts.md.
@@ -104,7 +111,7 @@ def verdict(
     wanted = [text for text, rank in zip(advice, ranks) if rank == worst > 0]
     more_exact = [text for text in wanted if not any(other.startswith(f"{text} ") for other in wanted)]
     decisive = [text for text in more_exact if ISLANDS in text]  # nothing else helps a mesh that is so coarse
-    sentence = _sentence(quality, _special(poles, turns, cones), ranks)
+    sentence = _sentence(quality, special(poles, turns, cones, lines), ranks)
     return Verdict(LEVELS[worst], sentence, "; ".join(decisive or more_exact))
 
 
@@ -161,25 +168,26 @@ def _rank(value, limits):
     return next((rank for rank, limit in enumerate(limits) if value <= limit), len(limits))
 
 
-def _special(poles, turns, cones):
-    """The poles of a tiling, or its turns and cones, in words; None for other maps."""
+def special(poles: int | None, turns: int = 1, cones: int = 0, lines: str = "none") -> str | None:
+    """The poles of a tiling, or its turns, cones and lines, in words; None for other maps."""
     if poles is None:
         return None
     if turns != 1:
-        return f"{TURNED[turns]}, {counted(cones, 'cone')}"
+        words = (TURNED[turns], counted(cones, "cone") if cones else "no cones", LINED.get(lines))
+        return ", ".join(filter(None, words))
     return counted(poles, "pole") if poles else "no poles"
 
 
-def _sentence(quality, special, ranks):
+def _sentence(quality, named, ranks):
     uneven, sheared, lost, overlapping = ranks
-    words = [EVENNESS[uneven], special and "seamless", SHEAR[sheared]]
+    words = [EVENNESS[uneven], named and "seamless", SHEAR[sheared]]
     if uneven > 1:
         words[0] += f" (squares of 1 to {_factor(quality.size_range)})"
     if lost:
         words.append(f"{_percent(quality.lost_part)} flipped or collapsed")
     if overlapping:
         words.append(f"{_percent(quality.overlapping_part)} of the island overlaps itself")
-    sentence = ", ".join(word for word in (*words, special) if word)
+    sentence = ", ".join(word for word in (*words, named) if word)
     return sentence[0].upper() + sentence[1:]
 
 

@@ -17,7 +17,7 @@ from ..core.value import Value, counted, quoted
 from ..mesh.checks import own_vertices
 from ..mesh.edges import has_angle_on_one_boundary
 from ..quality.quality import Quality
-from ..quality.verdicts import Verdict, verdict
+from ..quality.verdicts import Verdict, special, verdict
 
 LATTICES = {"square": (1, 1j), "brick": (1, 0.5 + 1j), "hex": (1, 0.5 + 0.5j * math.sqrt(3))}
 BOUNDARIES = ("automatic", "straight", "free")
@@ -97,8 +97,7 @@ class Tiling(Value):
     lines: str = "none"
 
     def _facts(self):
-        special = counted(len(self.poles), "pole") if self.turns == 1 else counted(len(self.cones), "cone")
-        size = f"{self.tiles:.4g} tiles, {special}"
+        size = f"{self.tiles:.4g} tiles, {special(len(self.poles), self.turns, len(self.cones), self.lines)}"
         return [size, f"size range {self.size_range:.4g}", f"angle distortion {self.quality.mean_angle:.4g}"]
 
     @property
@@ -109,7 +108,8 @@ class Tiling(Value):
     @property
     def verdict(self) -> Verdict:
         """The `Verdict` on the map."""
-        return verdict(self.quality, len(self.poles), self.added_distortion, turns=self.turns, cones=len(self.cones))
+        turned = {"turns": self.turns, "cones": len(self.cones), "lines": self.lines}
+        return verdict(self.quality, len(self.poles), self.added_distortion, **turned)
 
 
 @dataclass(frozen=True, repr=False)

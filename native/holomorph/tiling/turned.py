@@ -17,14 +17,17 @@ from ..mesh.checks import check_threads, checked_evenness, only_component, real_
 from ..mesh.hard_edges import is_hard
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
+from .image_turns import image_turns
 from .tilings import LATTICES, UPRIGHT, Rounding, Tiling, along
 
 TURNS = (1, 2, 4, 6)
+AUTO = "auto"  # those of the texture
 LATTICE = {2: "square", 4: "square", 6: "hex"}  # of which a turn by this part of a full one is a symmetry
 PRICE = 5e-4  # of a cone: what it is to take off the mean square of the logarithm of the scale
 LINED_TURNS = (2, 4)  # lines cross at right angles
 MOST_LOST = 0.5  # part of the area: nothing is left to look at
 LINES = ("none", "free", "whole")
+AUTOMATIC = "automatic"  # the lines that cost little
 HARD = 40.0  # degrees by which a surface bends at an edge that is to be a line
 MOST_ENDS = 0.02  # of chains, for each of their edges
 USUAL_TILES, TILES_PER_HANDLE = 400, 64  # by default, at least
@@ -58,7 +61,8 @@ class TurnedTiler:
         self._surface, self._component, self._threads = surface, only_component(surface), check_threads(threads or None)
         vector, _ = along(direction, None, self._component)
         self._turns, self._tiles = turns, float(max(USUAL_TILES, TILES_PER_HANDLE * self._component.genus))
-        self._lines = lines
+        edges = [] if lines == "none" else lines_of(self._component)
+        self._lines = lines if len(edges) else "none"
         self._maps = _native.TurnedMaps(
             self._component._native,
             turns=turns,
@@ -66,7 +70,7 @@ class TurnedTiler:
             direction=vector,
             is_of_u=not isinstance(direction, str),
             tiles=self._tiles,
-            lines=[] if lines == "none" else lines_of(self._component),
+            lines=edges,
             whole_lines=lines == "whole",
         )
 
@@ -125,14 +129,22 @@ def lines_of(surface: Surface) -> Integers:
     return edges if ends <= MOST_ENDS * len(edges) else edges[:0]
 
 
-def checked_lines(lines: Any, turns: int) -> str:
-    """Raises ValueError for anything but `LINES`, and for lines of a tiling that turns by other than quarters or
-    halves."""
-    if not isinstance(lines, str) or lines not in LINES:
-        raise ValueError(f"lines is {quoted(lines)}; one of {', '.join(LINES)} is needed")
-    if lines != "none" and turns not in LINED_TURNS:
+def checked_lines(lines: Any, turns: int, *others: str) -> str:
+    """Raises ValueError for anything but `LINES` and these others, and for lines of a tiling that turns by other than
+    quarters or halves."""
+    names = (*others, *LINES)
+    if not isinstance(lines, str) or lines not in names:
+        raise ValueError(f"lines is {quoted(lines)}; one of {', '.join(names)} is needed")
+    if lines not in (*others, "none") and turns not in LINED_TURNS:
         raise ValueError(f"lines is {quoted(lines)}, for which turns must be 2 or 4")
     return lines
+
+
+def asked_turns(turns: Any, texture: ArrayLike | None) -> int:
+    """`checked_turns`, or for `AUTO` those of a texture, of pixels as in `image_turns`; 1 without one."""
+    if isinstance(turns, str) and turns == AUTO:
+        return 1 if texture is None else image_turns(texture).turns
+    return checked_turns(turns)
 
 
 def checked_turns(turns: Any) -> int:

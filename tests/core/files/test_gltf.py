@@ -3,6 +3,7 @@
 import io
 import json
 import struct
+from contextlib import nullcontext
 
 import families
 import numpy as np
@@ -180,3 +181,67 @@ def test_command_refuses_textures_before_it_reads(options, told, tmp_path, capsy
     assert main(["absent.obj", *options]) == 2
     said = capsys.readouterr().err
     assert told in said and len(said.splitlines()) == 1 and not list(tmp_path.iterdir())
+
+
+def ball(folder, mesh):
+    (folder / "ball.obj").write_bytes(obj(mesh))
+    return folder / "ball.obj"
+
+
+def drawn(path, turns):
+    """A file with a picture that looks the same after these turns, about a place of its own."""
+    y, x = np.indices((64, 64))
+    spots = {4: (0, 1, 2, 3), 2: (0, 2)}[turns]
+    grey = sum(np.cos(np.pi * (x * a + y * b) / 16) for a, b in [((1, 0), (0, 1), (-1, 0), (0, -1))[k] for k in spots])
+    grey = np.roll(grey, (5, 9), (0, 1))
+    PIL.fromarray(np.uint8(127 + 100 * grey / np.abs(grey).max())).save(path)
+    return path
+
+
+def colours_on_both_sides(found):
+    """(n, 2) of the middles of the sides that two triangles have, beside each."""
+    image = np.array(PIL.open(io.BytesIO(found.image[1])).convert("L"), float)
+    points, uv = (found.attribute(name)[found.corners] for name in ("POSITION", "TEXCOORD_0"))
+    sides = {}
+    for corner in range(3):
+        other = (corner + 1) % 3
+        for ends, at in zip(points[:, [corner, other]], uv[:, [corner, other]].mean(axis=1)):
+            key = tuple(np.round(ends.sum(axis=0), 5)), tuple(np.round(np.abs(ends[0] - ends[1]), 5))
+            pixel = np.floor(at[::-1] * image.shape).astype(int) % image.shape
+            sides.setdefault(key, []).append(image[tuple(pixel)])
+    return np.array([pair for pair in sides.values() if len(pair) == 2])
+
+
+@pytest.mark.parametrize(("texture", "turns"), [("checker", 4), (4, 4), (2, 2)])
+def test_the_texture_of_a_map_that_turns_shows_no_seam(texture, turns, tmp_path):
+    """The map takes the turns of the texture, and has their centre at the corners of tiles."""
+    texture = texture if texture == "checker" else drawn(tmp_path / "picture.png", texture)
+    mesh, report = ball(tmp_path, families.geodesic_sphere(12)), tmp_path / "report.json"
+    options = ["--main", "seamless", "--turns", "auto", "--texture", str(texture), "--report", str(report)]
+    assert main([str(mesh), "--output", str(tmp_path / "ball.glb"), *options]) == 0
+    told = json.loads(report.read_text())
+    assert told["components"][0]["tiling"]["turns"] == told["texture"]["turns"] == turns
+    assert "Looks the same after" in told["texture"]["text"]
+    colours = colours_on_both_sides(Glb(tmp_path / "ball.glb"))
+    off = np.abs(colours[:, 0] - colours[:, 1])
+    assert len(colours) > 1000 and np.quantile(off, 0.99) < 25 < np.ptp(colours)
+
+
+def test_without_a_texture_auto_is_no_turn(tmp_path):
+    mesh, report = ball(tmp_path, families.geodesic_sphere(4)), tmp_path / "report.json"
+    assert main([str(mesh), "--main", "seamless", "--turns", "auto", "--report", str(report)]) == 0
+    told = json.loads(report.read_text())
+    assert told["components"][0]["tiling"]["turns"] == 1 and told["texture"] is None
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--turns", "3"], "--turns: invalid choice: 3"),
+        (["--turns", "6", "--lines", "free"], "lines is 'free', for which turns must be 2 or 4"),
+    ],
+)
+def test_wrong_turns_and_lines_are_named(options, told, tmp_path, capsys):
+    with pytest.raises(SystemExit) if "3" in options else nullcontext():
+        assert main([str(ball(tmp_path, families.geodesic_sphere(2))), *options]) == 2
+    assert told in capsys.readouterr().err

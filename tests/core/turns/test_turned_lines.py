@@ -5,32 +5,9 @@ import numpy as np
 import pytest
 from holomorph import Surface, automatic_map, automatic_structure
 from holomorph.tiling.turned import lines_of
+from solids import revolved
 
-AROUND = 32
-STEP = 0.08
-
-
-def revolved(*profile, around=AROUND, step=STEP):
-    """A surface of revolution; profile: (radius, height) at its corners, closed where the radius is 0."""
-    ends = zip(profile, profile[1:])
-    parts = [
-        np.linspace(a, b, max(2, round(np.hypot(b[0] - a[0], b[1] - a[1]) / step)), endpoint=False) for a, b in ends
-    ]
-    rows = np.concatenate([*parts, [profile[-1]]])
-    angles = 2 * np.pi * np.arange(around) / around
-    points, rings = [], []
-    for radius, height in rows:
-        ring = angles if radius > 0 else angles[:1]
-        rings.append(len(points) + np.arange(len(ring)))
-        points.extend(np.column_stack([radius * np.cos(ring), radius * np.sin(ring), np.full(len(ring), height)]))
-    faces = []
-    for below, above in zip(rings, rings[1:]):
-        for i in range(around):
-            near, far = [ring[[i % len(ring), (i + 1) % len(ring)]] for ring in (below, above)]
-            corners = [near[0], near[1], far[1], far[0]]
-            faces.append(list(dict.fromkeys(int(v) for v in corners)))
-    return Surface(np.array(points), faces)
-
+AROUND = 32  # edges of a circle
 
 SHAPES = {
     "can": lambda: revolved((0, 0), (0.5, 0), (0.5, 1.2), (0, 1.2)),
@@ -39,7 +16,7 @@ SHAPES = {
     "bowl": lambda: revolved((0, 0), (0.2, 0.02), (0.4, 0.08), (0.6, 0.3), (0.7, 0.6)),
     "box": lambda: cuboid(6),
 }
-LOOPS = {"can": 2, "cup": 4, "tube": 2, "bowl": 1}  # of each AROUND edges
+LOOPS = {"can": 2, "cup": 4, "tube": 2, "bowl": 1}  # of AROUND edges each
 
 
 def cuboid(n):
@@ -144,7 +121,7 @@ def test_a_box_has_its_corners_for_cones():
 def test_a_cup_has_no_more_cones_than_its_caps_ask_for():
     """Four on each; pairs of opposite ones would turn the field of its walls away from the rims."""
     cup = ((0, 0), (0.5, 0), (0.5, 1.2), (0.44, 1.2), (0.44, 0.06), (0, 0.06))
-    made = tiling(revolved(*cup, around=48, step=0.06), "free", tiles=400)
+    made = tiling(revolved(*cup, sides=48, step=0.06), "free", tiles=400)
     np.testing.assert_array_equal(made.cone_angles, 0.75 * np.ones(8))
 
 

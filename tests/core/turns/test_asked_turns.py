@@ -1,0 +1,126 @@
+"""What is asked for of maps that turn, the turns of a texture and lines; and what is told of them at each door."""
+
+import json
+import math
+
+import families
+import numpy as np
+import pytest
+from drawn_images import checker, hexagons
+from holomorph import automatic_map, automatic_maps, automatic_structure
+from holomorph.maps.report import part_report
+from holomorph.mesh.edges import edge_keys
+from holomorph.quality.appearance import CONE, cost
+from holomorph.quality.verdicts import special, verdict
+from measured import Measured
+from solids import revolved
+from solved import surface_of
+
+TEXTURES = {
+    "checker": (checker(64, 4), 4),
+    "boards": (np.kron(checker(32, 4), np.ones((1, 2)))[:, :32], 2),
+    "hexagons": (hexagons(222, 128, 2, 1), 6),
+    "one way": (checker(64, 4) * np.linspace(0, 1, 64), 1),
+}
+CUP = ((0, 0), (0.5, 0), (0.5, 1), (0.42, 1), (0.42, 0.08), (0, 0.08))
+
+
+def ball():
+    return surface_of(families.geodesic_sphere(6))
+
+
+def box():
+    return surface_of(families.voxel_surface(np.ones((4, 4, 4)), ((0, 0),)))
+
+
+def dome():
+    """A bowl upside down on a plate: the bowl has a tiling of its own, and rows run round the plate's rim."""
+    arc = [(0.4 * math.cos(angle), 0.2 + 0.4 * math.sin(angle)) for angle in np.linspace(0.2, 1.4, 6)]
+    return revolved((0, 0), (0.5, 0), (0.5, 0.2), (0.4, 0.2), *arc, (0, 0.6))
+
+
+@pytest.mark.parametrize("name", TEXTURES)
+def test_auto_takes_the_turns_of_the_texture(name):
+    pixels, turns = TEXTURES[name]
+    structure, options = automatic_structure(ball()), {"evenness": 0.5}
+    made = structure.tile(200, turns="auto", texture=pixels, **options)
+    assert made.turns == turns
+    assert np.array_equal(made.uv, structure.tile(200, turns=turns, **options).uv)
+    one = automatic_map(ball(), main="seamless", turns="auto", texture=pixels)
+    (other,) = automatic_maps(ball(), main="seamless", turns=turns)
+    assert one.turns == turns and one.tiling.tiles == other.tiling.tiles
+
+
+def test_without_a_texture_auto_is_none():
+    structure = automatic_structure(ball())
+    assert np.array_equal(structure.tile(100, turns="auto").uv, structure.tile(100).uv)
+    (made,) = automatic_maps(ball(), main="seamless", turns="auto")
+    assert made.turns == 1 and np.array_equal(made.uv, automatic_map(ball(), main="seamless").uv)
+
+
+@pytest.mark.parametrize("lines", ["none", "free", "whole"])
+def test_lines_are_those_that_are_asked_for(lines):
+    """Whatever they cost; and so are all that are asked for of a mesh without any."""
+    cup = revolved(*CUP)
+    made = automatic_map(cup, main="seamless", turns=4, lines=lines)
+    assert made.tiling.lines == lines
+    assert automatic_map(cup, main="seamless", turns=4).tiling.lines == "free"
+    one = automatic_map(ball(), main="seamless", turns=4, lines=lines)
+    assert one.tiling.lines == "none" and np.array_equal(one.uv, automatic_map(ball(), main="seamless", turns=4).uv)
+
+
+def test_lines_that_cannot_be_made_are_left_out():
+    """Half turns do not fit the lines of a box, which meet at right angles."""
+    made = automatic_map(box(), main="seamless", turns=2, lines="whole")
+    assert made.tiling.lines in ("none", "whole") and made.quality.lost_part < 0.02
+
+
+@pytest.mark.parametrize("make", [automatic_map, automatic_maps])
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"turns": "texture"}, "turns is 'texture'; one of 1, 2, 4, 6 is needed"),
+        ({"turns": 4, "lines": "all"}, "lines is 'all'; one of automatic, none, free, whole is needed"),
+        ({"turns": 6, "lines": "free"}, "lines is 'free', for which turns must be 2 or 4"),
+        ({"turns": "auto", "lines": "whole"}, "lines is 'whole', for which turns must be 2 or 4"),
+        ({"turns": "auto", "texture": np.zeros(3)}, "pixels have the shape"),
+    ],
+)
+def test_wrong_choices_are_named(make, options, words):
+    with pytest.raises(ValueError, match=words):
+        make(ball(), **options)
+
+
+@pytest.mark.parametrize("turns", [2, 4])
+def test_maps_in_pieces_have_the_cones_of_their_tilings(turns):
+    """Named as vertices of the whole surface, where the angles are those that are told."""
+    surface = dome()
+    made = automatic_map(surface, turns=turns)
+    assert made.kind == "mixed" and made.turns == turns and len(made.cones) == len(made.cone_angles) > 0
+    at = (made.uv @ [1, 1j])[surface._native.triangle_corners]
+    corners = np.angle((np.roll(at, 1, axis=1) - at) / (np.roll(at, -1, axis=1) - at))
+    around = np.bincount(surface.triangles.ravel(), corners.ravel()) / (2 * np.pi)
+    assert np.allclose(around[made.cones], made.cone_angles, atol=1e-6)
+    seams = [tiling.seams for tiling in made.mixed.tilings if tiling.turns != 1]
+    assert len(np.concatenate(seams)) == len(made.jumps)
+    count = len(surface.vertices)
+    assert np.isin(edge_keys(np.concatenate(seams), count), edge_keys(made.seams, count)).all()
+    assert (made.jumps[:, 0] < turns).all() and made.jumps[:, 0].any()
+
+
+def test_the_cones_of_a_map_in_pieces_cost():
+    made = automatic_map(dome(), turns=4)
+    without = cost(made.quality, 0, made.mixed.soft_length, made.mixed.hard_length)
+    assert made.cost == pytest.approx(without + CONE * len(made.cones))
+
+
+def test_turns_cones_and_lines_are_told():
+    assert special(None) is None and special(0) == "no poles" and special(1) == "1 pole"
+    assert special(0, 4, 0, "none") == "quarter turns, no cones"
+    told = "Even, seamless, half turns, 1 cone, rows run along edges"
+    assert verdict(Measured(), 0, turns=2, cones=1, lines="free").text == told
+    cube = automatic_map(box(), main="seamless", turns=4)
+    words = "quarter turns, 8 cones, rows end at edges"
+    assert words in cube.verdict.sentence and words in repr(cube.tiling)
+    tiling = json.loads(json.dumps(part_report(cube)))["tiling"]
+    assert (tiling["turns"], tiling["lines"], len(tiling["cones"])) == (4, "whole", 8)
