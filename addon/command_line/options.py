@@ -47,7 +47,7 @@ def parse(arguments):
     parser.add_argument("--render", type=Path, help="where to save a picture (PNG)")
     parser.add_argument("--report", type=Path, help="where to save the report (JSON)")
     parser.add_argument("--object", action="append", default=[], help="only this object (may be repeated)")
-    _add_properties(parser, SharedProperties, "evenness", "turns", "texture", "source", "size", "seams")
+    _add_properties(parser, SharedProperties, "evenness", "turns", "rows", "texture", "source", "size", "seams")
     _add_properties(parser, MapProperties, "main", "forms", "shown", "density", "margin", "rotation")
     _add_properties(parser, MapProperties, "checker_scale", "shape")
     text = "each object fills the UV square, instead of equal texels per metre"
@@ -109,7 +109,7 @@ def _parsed(kind, about):
 
 def _take_over(options):
     """Adds what the operators' properties have besides, under their names."""
-    for name in ("main", "texture", "turns", "direction", "poles"):
+    for name in ("main", "texture", "turns", "rows", "direction", "poles"):
         setattr(options, name, getattr(options, name).upper())
     options.use_selection, options.amounts, options.phases = options.selection.upper(), (), ()
     if options.seamless:

@@ -34,6 +34,8 @@ class TileOptions:
     allowed: bytes | None = None
     evenness: float = 0.5  # from 0 for angles to 1 for squares of one size
     turns: int = 1  # 2, 4 or 6: the sides of a cut may turn by this part of a full turn
+    lines: str = "automatic"  # at which rows end, or along which they run, where the map turns
+    marked: bytes | None = None  # of the vertices of edges that are lines besides those found, (n, 2) int64
     moved: tuple = ()  # (index of a pole in its part's tiling, vertex to which it was dragged)
 
     @property
@@ -197,12 +199,13 @@ def mapped(solved, options, is_equal=False, progress=None):
 
 
 def _mapped_together(solved, options, progress):
-    """With squares of one size. Maps are kept with each solve, under what was asked of all of them."""
+    """With squares of one size. Maps are kept with each solve, which equal objects share, under what was asked of it
+    and of all of them."""
     together = tuple(_asked(*each) for each in zip(solved, options))
-    if not all((one.number, together) in one.maps for one in solved):
-        for one, kept in zip(solved, _made(solved, options, progress)):
-            one.keep_maps((one.number, together), kept)
-    return [_object(one, own, *one.maps[one.number, together]) for one, own in zip(solved, options)]
+    if not all((asked, together) in one.maps for one, asked in zip(solved, together)):
+        for one, asked, kept in zip(solved, together, _made(solved, options, progress)):
+            one.keep_maps((asked, together), kept)
+    return [_object(one, own, *one.maps[asked, together]) for one, own, asked in zip(solved, options, together)]
 
 
 def _asked(solved, options):
@@ -250,11 +253,12 @@ def _requests(components, options):
         poles=wanted.poles,
         allowed=None if wanted.allowed is None else np.frombuffer(wanted.allowed, bool),
         moves=wanted.moved,
+        marked=None if wanted.marked is None else np.frombuffer(wanted.marked, np.int64).reshape(-1, 2),
         direction=wanted.direction,
         evenness=wanted.evenness,
         amounts=options.amounts,
         phases=options.phases,
-        options={name: getattr(wanted, name) for name in ("lattice", "boundary", "turns")}
+        options={name: getattr(wanted, name) for name in ("lattice", "boundary", "turns", "lines")}
         | {"turn": wanted.turn or None},
     )
     return [asked.of_structure(part) for part in components]

@@ -55,13 +55,19 @@ TEXTURES = items(
     MATERIAL="Your own material: a copy of it reads the map. It is assumed to repeat as its images do",
 )
 TURNS = items(
-    FROM_TEXTURE="As the texture allows, where poles, lattice, rotation and boundary are automatic. The checker does "
-    "not turn yet",
+    FROM_TEXTURE="As the texture allows, where poles, lattice, rotation and boundary are automatic",
     NONE="The sides of a cut are only shifted: for letters, arrows, scales and all that has one way up",
     HALF="The sides may also turn by a half: for bricks, planks and all that looks the same upside down",
     QUARTER="The sides may also turn by a quarter: for squares, dots, cloth and all that looks the same on its side",
     SIXTH="The sides may also turn by a sixth: for images that repeat as hexagons do",
 )
+ROWS = items(
+    AUTOMATIC="Rows end at hard edges, or run along them, where squares stay about as even",
+    ANYWHERE="Squares are as even as can be; edges cut through them",
+    ALONG_EDGES="Rows run along hard edges, edges marked sharp, and smooth borders",
+    END_AT_EDGES="Rows run along these edges and end there with whole squares",
+)
+UNLINED = {"NONE", "SIXTH"}  # turns of maps without such rows
 OWN_TEXTURES = {"IMAGE": "images", "MATERIAL": "materials"}  # where Blender has them
 OF_ISLANDS = {"hard_edges", "most_stretch"}
 ABOUT = {
@@ -76,6 +82,7 @@ ABOUT = {
     "in place when it changes",
     "turns": "By what the texture may turn from one side of a cut to the other: squares are then more even, and there "
     "are no poles. A texture that looks different after the turn shows seams. No effect on islands and maps with seams",
+    "rows": "Where rows of the texture lie on a map that turns by halves or quarters: at hard edges, or anywhere",
     "seams": "Mark the edges where the maps are cut as seams; existing seams are kept",
     "main": "Kind of the main map",
     "forms": "Largest number of maps of single forms, besides the main one: one for each handle, more with holes",
@@ -145,12 +152,14 @@ class SharedProperties:
     found: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
     evenness: FloatProperty(name="Evenness", description=ABOUT["evenness"], default=EVENNESS, min=0.0, max=1.0)
     turns: EnumProperty(name="Turns", description=ABOUT["turns"], items=TURNS, default="FROM_TEXTURE")
+    rows: EnumProperty(name="Rows", description=ABOUT["rows"], items=ROWS, default="AUTOMATIC")
     seams: BoolProperty(name="Mark Seams", description=ABOUT["seams"], default=False)
     form_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
     tile_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
 
     def is_drawn(self, name):
-        return name != "source" or self.texture in OWN_TEXTURES
+        hidden = {"source": self.texture not in OWN_TEXTURES, "rows": self.turns in UNLINED}
+        return not hidden.get(name, False)
 
     def draw_options(self, layout, obj):
         for group in self.drawn:
@@ -175,6 +184,7 @@ class MapProperties(SharedProperties):
             "main",
             "evenness",
             "turns",
+            "rows",
             "hard_edges",
             "most_stretch",
             "density",

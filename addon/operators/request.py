@@ -21,6 +21,8 @@ AXES = "XYZ"
 ALLOWING = 0.5  # weight of a vertex above which a pole may be there
 SQUARES = 4  # of the checker, across an image
 TURNS = {"NONE": 1, "HALF": 2, "QUARTER": 4, "SIXTH": 6}  # others: those of the texture
+ROWS = {"AUTOMATIC": "automatic", "ANYWHERE": "none", "ALONG_EDGES": "free", "END_AT_EDGES": "whole"}
+LINED = (2, 4)  # turns of maps whose rows may do so
 TURNED = {2: ("square", "half"), 4: ("square", "quarter"), 6: ("hex", "sixth")}  # lattice that they leave, their name
 QUICK_TURNED = 100_000  # triangles of an object: some 12 seconds, which grow as their square
 # Lattices that quarter turns of a map that is made leave as they are, and so the texture whole. On others it is turned
@@ -56,7 +58,7 @@ class Run:
         """Writes the results of the job, in a `transaction.Step` of the objects. Returns the `report.Outcome`."""
         results = targets.align(self._found, job.results)
         outcome = write.write(step, self._found, results, self._write_options, time_has_passed)
-        outcome.notes += filter(None, self._notes if outcome.done else [])
+        outcome.notes += filter(None, [*self._notes, *_why_no_rows(self._found, results)] if outcome.done else [])
         return outcome
 
 
@@ -135,12 +137,20 @@ def _turned(properties, target, own, tiling):
     }
     chosen = [dial for dial, is_chosen in excluded.items() if is_chosen]
     if not chosen:
-        return replace(tiling, turns=turns, lattice=lattice, boundary="automatic")
+        return replace(tiling, turns=turns, lattice=lattice, boundary="automatic", **_lines(properties, target, turns))
     if properties.turns not in TURNS:
         return tiling
     raise ValueError(
         f"a map with {name} turns has no choice of {' and '.join(chosen)}: leave it automatic, or set Turns to None"
     )
+
+
+def _lines(properties, target, turns):
+    """The fields of `TileOptions` that say where rows end: at hard edges, and at those that are marked sharp."""
+    lines = ROWS[properties.rows] if turns in LINED else "automatic"
+    if lines == "none" or turns not in LINED or not len(target.sharp):
+        return {"lines": lines}
+    return {"lines": lines, "marked": target.sharp.astype(np.int64).tobytes()}
 
 
 def _follows_texture(properties, target):
@@ -155,6 +165,15 @@ def _why_seams(texture, own, turns):
         return ""
     name = own.name if own else textures.label(texture)
     return f"{name} looks different after a {TURNED[turns][1]} turn: seams show where the map turns"
+
+
+def _why_no_rows(found, results):
+    """What is told of objects whose rows do not lie at edges, as was asked."""
+    for target, made in zip(found, results):
+        asked = made.options.tiling.lines if isinstance(made, mapped.MappedObject) else "none"
+        tilings = [part.tiling for part in made.tiled if part.tiling] if asked in ("free", "whole") else []
+        if any(tiling.turns != 1 and tiling.lines == "none" for tiling in tilings):
+            yield f"{target.name}: rows do not lie at its edges: there are none, or tiles are too large for them"
 
 
 def _density(size, repeats):

@@ -58,7 +58,7 @@ class TileProperties(SharedProperties):
 
     is_tiling = True
     drawn = (
-        ("tiles", "evenness", "turns", "equal", "modifiers", "poles", "pole_count", "pole_group"),
+        ("tiles", "evenness", "turns", "rows", "equal", "modifiers", "poles", "pole_count", "pole_group"),
         ("lattice", "direction", "turn", "quarters", "boundary"),
         ("checker", "texture", "source", "size", "repeats", "seams", "empties"),
     )

@@ -31,7 +31,7 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
             entry["not_followed"] = part.component.note
     dials = asdict(made.options)
     asked = dials.pop("tiling")
-    del asked["allowed"]  # a vertex group of the object says it
+    del asked["allowed"], asked["marked"]  # a vertex group and the marks of the object say them
     entry = {
         "object": obj.name,
         "mesh": obj.data.name,

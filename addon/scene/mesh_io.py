@@ -15,6 +15,7 @@ import numpy as np
 from .. import compatibility, native
 from ..compatibility import Values
 
+SEAM, SHARP = "use_seam", "use_edge_sharp"  # marks of edges
 KEYED = 100_000  # vertices up to which all positions are in a key: a panel makes one whenever it is drawn
 SAMPLED = 1000  # vertices of a larger mesh that are
 
@@ -128,19 +129,19 @@ def is_attribute(mesh, name, domain, kind):
 
 
 def read_shown(obj, linear, own):
-    """(`Polygons`, (n, 2) vertices of the seams, whether the faces are those of `own`) of an object with its modifiers
-    as the viewport shows them."""
+    """(`Polygons`, (n, 2) vertices of the seams, those of sharp edges, whether the faces are those of `own`) of an object
+    with its modifiers as the viewport shows them."""
     shown = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = shown.to_mesh()
     try:
         found = read_polygons(mesh, linear)
-        return found, marked_edges(mesh, "use_seam"), found.has_faces_of(own)
+        return found, *(marked_edges(mesh, mark) for mark in (SEAM, SHARP)), found.has_faces_of(own)
     finally:
         shown.to_mesh_clear()
 
 
 def marked_edges(mesh, *marks):
-    """(n, 2) vertices of the edges with one of these marks after the other: "use_seam", "use_edge_sharp", "select"."""
+    """(n, 2) vertices of the edges with one of these marks after the other: `SEAM`, `SHARP`, "select"."""
     found = [_edge_vertices(mesh)[read_values(_marks(mesh, mark))] for mark in marks]
     return np.concatenate([np.empty((0, 2), np.int64), *found])
 
@@ -152,13 +153,13 @@ def mark_edges(mesh, mark, vertex_pairs):
 
 def read_seams(mesh):
     """(#mesh edges,) bool."""
-    return read_values(_marks(mesh, "use_seam"))
+    return read_values(_marks(mesh, SEAM))
 
 
 def add_seams(mesh, vertex_pairs):
     """Marks the edges with these (#S,2) vertices as seams, keeps every seam there is; returns how many are new."""
     wanted, before = _edges_between(mesh, vertex_pairs), read_seams(mesh)
-    write_values(_marks(mesh, "use_seam"), before | wanted)
+    write_values(_marks(mesh, SEAM), before | wanted)
     return int(np.count_nonzero(wanted & ~before))
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The objects of a run, as they are when it begins: their polygons, and what is chosen on them."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import bpy
 import numpy as np
@@ -29,6 +29,9 @@ class Target:
     mask: np.ndarray | None = None  # (#F,) which faces of the mesh are mapped, None for all
     modifiers: bool = False  # whether the polygons are those that the modifiers make
     makes_object: bool = False  # whether these become an object of their own
+    sharp: np.ndarray = field(
+        default_factory=lambda: jobs.NO_EDGES
+    )  # (n, 2) vertices of the edges that are marked sharp
     sharers: tuple = ()  # names of the further objects with this mesh that are asked for
 
     def find(self):
@@ -115,7 +118,8 @@ def _target(obj, mask, asked):
     reason = _why_refused(obj, mask, asked)
     if reason:
         return replace(target, refused=reason)
-    own = read(obj, mask)
+    own, sharp = read(obj, mask), mesh_io.marked_edges(obj.data, mesh_io.SHARP)
+    target = replace(target, sharp=sharp)
     if asked.modifiers and obj.mode == "OBJECT":
         return _with_modifiers(replace(target, modifiers=True), obj, own, asked)
     modifier = "" if own.face_count else first_modifier(obj)
@@ -136,10 +140,10 @@ def _why_refused(obj, mask, asked):
 
 def _with_modifiers(target, obj, own, asked):
     """The target as its modifiers make it: its own polygons in other places, or other ones."""
-    shown, seams, are_own = mesh_io.read_shown(obj, gathering.linear(obj), own)
+    shown, seams, sharp, are_own = mesh_io.read_shown(obj, gathering.linear(obj), own)
     if target.mask is None and are_own:
         return replace(target, polygons=replace(own, vertices=shown.vertices), chosen=_chosen(obj, asked))
-    return _of_modifiers(target, asked, shown, seams, first_modifier(obj))
+    return _of_modifiers(replace(target, sharp=sharp), asked, shown, seams, first_modifier(obj))
 
 
 def _of_modifiers(target, asked, shown, seams, modifier):
@@ -160,7 +164,7 @@ def first_modifier(obj):
 
 def _chosen(obj, asked):
     """The choices, with the vertices and edges of this object; @pre pending edits are written to the mesh."""
-    marks = ["use_seam"] * bool(asked.cut_at_seams) + ["use_edge_sharp"] * bool(asked.hard_edges)
+    marks = [mesh_io.SEAM] * bool(asked.cut_at_seams) + [mesh_io.SHARP] * bool(asked.hard_edges)
     vertices = _selected(obj, asked.use) if asked.vertices is None else asked.vertices
     return replace(asked, vertices=vertices, seams=mesh_io.marked_edges(obj.data, *marks))
 

@@ -115,6 +115,7 @@ class Structure(Value):
         turns: int | str = 1,
         texture: ArrayLike | None = None,
         lines: str = "none",
+        marked: ArrayLike | None = None,
         surface: Surface | None = None,
         progress: Progress | None = None,
     ) -> Tiling:
@@ -151,6 +152,7 @@ class Structure(Value):
         texture : pixels, as in `image_turns`, for "auto". Its centre of turns belongs at the corners of tiles
         lines : "free" for rows that run along long hard edges and smooth boundaries, "whole" for rows that end there as
             well, where turns is 4, or 2 and the edges suit it; "none"
+        marked : (n, 2) vertices of edges that are such lines, too; others than edges are ignored
 
         Raises TopologyError for poles that do not fit, for fewer tiles than the surface needs (names how many are
         enough), and for more added distortion than `max_added` (names what can be had). Poles are kept.
@@ -164,7 +166,7 @@ class Structure(Value):
             chosen = {"poles": (poles, "auto", 0), "turn": (turn, 0.0), "boundary": (boundary, "automatic")}
             chosen |= {"lattice": (lattice, "square", LATTICE.get(turns)), "max_added": (max_added,)}
             check_fits(chosen | {"allowed": (allowed,), "moves": (moves or None,)})
-            tiler = self._turned_tiler(surface, turns, direction, lines)
+            tiler = self._turned_tiler(surface, turns, direction, lines, marked)
             key = tiler, tiles, evenness
             made = self._tilings.get(key) or tiler.tile(tiles, evenness=evenness, progress=rounding)
             return self._tilings.keep(key, made)
@@ -220,12 +222,13 @@ class Structure(Value):
             tiler = Tiler(surface, poles, **options, progress=progress)
         return self._tilers.keep(key, tiler)
 
-    def _turned_tiler(self, surface, turns, direction, lines):
+    def _turned_tiler(self, surface, turns, direction, lines, marked):
         surface = self._component if surface is None else surface
-        key = surface, turns, _hashable(direction), lines
+        key = surface, turns, _hashable(direction), lines, _hashable(marked)
         tiler = self._tilers.get(key)
         if tiler is None:
-            tiler = TurnedTiler(surface, turns, direction=direction, lines=lines, threads=self._threads)
+            chosen = {"direction": direction, "lines": lines, "marked": marked}
+            tiler = TurnedTiler(surface, turns, **chosen, threads=self._threads)
         return self._tilers.keep(key, tiler)
 
     @cached_property

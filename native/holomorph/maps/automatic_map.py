@@ -38,6 +38,7 @@ def automatic_map(
     turns: int | str = 1,
     texture: ArrayLike | None = None,
     lines: str = AUTOMATIC,
+    marked: ArrayLike | None = None,
     evenness: float = EVENNESS,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -56,7 +57,7 @@ def automatic_map(
     main : "automatic"; "seamless" for a tiling in any case; "untiled" for the best of the other maps; "balanced" for a
         map of forms, as when something about the structure was chosen
     tiles, poles, lattice, boundary, turn, max_turn, max_added, turns, texture : of tilings, as in `Structure.tile`
-    lines : likewise, where they can be made; "automatic" for those that cost little
+    lines, marked : likewise, where they can be made; "automatic" for lines that cost little
     density, density_tolerance : tiles per unit of area, and the relative amount by which whole tiles may miss it; where
         they miss it by more, the map is not a tiling
     direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
@@ -77,7 +78,7 @@ def automatic_map(
     """
     check_type(surface, Surface)
     options = {"lattice": lattice, "boundary": boundary, "turn": turn, "max_turn": max_turn, "max_added": max_added}
-    options |= _turning(turns, texture, lines)
+    options |= _turning(turns, texture, lines) | {"marked": marked}
     request = Request(surface, structure, main, poles, evenness, direction, options=options)
     size = SizePolicy.of([surface], tiles, density, density_tolerance)
     (((made,), _),) = map_objects([[request]], size, threads, progress)
@@ -100,6 +101,7 @@ def automatic_maps(
     turns: int | str = 1,
     texture: ArrayLike | None = None,
     lines: str = AUTOMATIC,
+    marked: ArrayLike | None = None,
     evenness: float = EVENNESS,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -122,7 +124,7 @@ def automatic_maps(
     poles : "auto", a number for each part, or a list of vertices; "auto" on parts without any
     allowed : (#V,) bool, where poles may be that are not chosen; parts without such vertices get none
     moves : (index of a pole in the tiling of its part, vertex) for each pole that is moved after the rounding
-    direction, turns, texture, lines, evenness, options, threads, progress : as in `automatic_map`
+    direction, turns, texture, lines, marked, evenness, options, threads, progress : as in `automatic_map`
 
     Raises ValueError and TypeError for arguments that do not fit; MemoryError; Cancelled. What a part itself raises
     takes the place of its map.
@@ -143,9 +145,8 @@ def automatic_maps(
     check_list(moves, "moves")
     mains = [main] * len(parts) if isinstance(main, str) else main
     options |= _turning(turns, texture, lines)
-    asked = MeshRequest(
-        poles=poles, allowed=allowed, moves=moves, direction=direction, evenness=evenness, options=options
-    )
+    chosen = {"poles": poles, "allowed": allowed, "moves": moves, "marked": marked}
+    asked = MeshRequest(**chosen, direction=direction, evenness=evenness, options=options)
     requests = [asked.of_part(*each) for each in zip(parts, structures or [None] * len(parts), mains)]
     ((made, _),) = map_objects([requests], SizePolicy.of(parts, tiles, density), threads, progress)
     for found in made:

@@ -17,6 +17,7 @@ from ..cutting.island_layout import Islands
 from ..cutting.island_map import HARD, SMOOTH
 from ..mesh.edges import boundary_edges, edge_keys
 from ..mesh.hard_edges import bends, seen
+from ..mesh.origin import edges_on_part
 from ..mesh.surface import Surface
 from ..quality.appearance import HARD_SEAM, TURN
 from ..quality.quality import Quality
@@ -113,7 +114,9 @@ class PieceSearch:
             structure = automatic_structure(surface, threads=self._threads, progress=progress)
         except REFUSALS:
             return None
-        return TilingSearch(surface, structure, self._request)
+        marked = self._request.options.get("marked")
+        own = {} if marked is None else {"marked": edges_on_part(surface, marked)}
+        return TilingSearch(surface, structure, replace(self._request, options={**self._request.options, **own}))
 
     def _is_worth(self, piece, search, rival):
         """Whether its tiling may be part of a map that costs less than a tiling of the whole part. On a tube one

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..core.array_types import Complexes, Reals
 from ..core.arrays import integer
-from ..mesh.origin import on_part
+from ..mesh.origin import edges_on_part, on_part
 from ..mesh.surface import Surface
 from ..tiling.tiling import Poles
 from .automatic_structure import AnyStructure
@@ -68,6 +68,7 @@ class MeshRequest:
     poles: Poles = "auto"
     allowed: ArrayLike | None = None
     moves: Sequence[tuple[int, int]] = ()
+    marked: ArrayLike | None = None
     direction: ArrayLike | str | None = "upright"
     evenness: float = EVENNESS
     amounts: Sequence[float] = ()
@@ -84,7 +85,8 @@ class MeshRequest:
             allowed, poles = None, 0 if isinstance(poles, (str, numbers.Real)) else poles
         places, is_there = on_part(part, integer([vertex for _, vertex in self.moves], "moves"))
         moves = {pole: int(place) for (pole, _), place, has in zip(self.moves, places, is_there) if has}
-        options = {**self.options, "allowed": allowed, "moves": moves}
+        marked = None if self.marked is None else edges_on_part(part, integer(self.marked, "marked", 2, (2,)))
+        options = {**self.options, "allowed": allowed, "moves": moves, "marked": marked}
         return Request(part, structure, main or self.main, poles, self.evenness, self.direction, options=options)
 
     def of_structure(self, part: PartStructure) -> Request:

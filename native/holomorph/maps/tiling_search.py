@@ -6,6 +6,7 @@ import math
 import numbers
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +18,7 @@ from ..core.progress import scaled
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from ..tiling.tilings import Tiling, generators
-from ..tiling.turned import AUTOMATIC, LATTICE, LINED_TURNS, lines_of
+from ..tiling.turned import AUTOMATIC, LATTICE, LINED_TURNS, are_whole, lines_of
 from .arrangement import on_grid
 from .automatic_structure import AnyStructure
 from .map import Map
@@ -127,7 +128,7 @@ class TilingSearch:
         if turns == 1:
             return self._shifted(size, progress)
         step, size = scaled(progress, 1.0, 1.0), size | ({"lattice": LATTICE[turns]} if turns in LATTICE else {})
-        if lines in CHOSEN_LINES and len(lines_of(self.surface)):
+        if lines in CHOSEN_LINES and len(self._edges_of_lines):
             if lined := self._with_turns(size, progress, turns, lines):
                 return lined
             progress = step
@@ -150,7 +151,7 @@ class TilingSearch:
         and loses nothing; None if none does."""
         if len(self.surface.triangles) > MOST_LINED_TRIANGLES:
             return None
-        length = self.surface._native.edge_lengths[lines_of(self.surface)].sum() / math.sqrt(self.surface.area)
+        length = self.surface._native.edge_lengths[self._edges_of_lines].sum() / math.sqrt(self.surface.area)
         if length < 1:
             return None
         most = turned.cost + min(LINED * length, MOST_LINED)
@@ -159,6 +160,16 @@ class TilingSearch:
             if made and made.quality.lost_part == 0 and made.cost < most:
                 return made
         return None
+
+    @cached_property
+    def _marked(self):
+        """The marked edges that may be lines: all where lines are asked for."""
+        marked, lines = (self._request.options.get(name) for name in ("marked", "lines"))
+        return marked if marked is not None and (lines in CHOSEN_LINES or are_whole(marked)) else None
+
+    @cached_property
+    def _edges_of_lines(self):
+        return lines_of(self.surface, self._marked)
 
     def _with_turns(self, size, progress, turns, lines="none"):
         """None where there is none."""
@@ -226,6 +237,7 @@ class TilingSearch:
     def _with(self, poles, size, progress, turns=1, lines="none"):
         """Raises what `Structure.tile` raises; TopologyError where too much is lost."""
         options = {**self._request.tiling, "moves": {}, **size, "turns": turns, "lines": lines}
+        options["marked"] = None if lines == "none" else self._marked
         made = self._structure.tile(poles=poles, surface=self.surface, progress=progress, **options)
         lost = made.quality.lost_part
         if not lost < MOST_LOST:

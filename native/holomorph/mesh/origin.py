@@ -6,6 +6,7 @@ import numpy as np
 
 from ..core import arrays
 from ..core.array_types import Integers
+from .edges import edge_keys
 from .repairs import Cut, Refused, Repairs
 
 NO_PAIRS = arrays.frozen(np.empty((0, 2), np.int32))
@@ -84,3 +85,10 @@ def on_part(part, vertices):
     vertices = part._origin.lowest(np.asarray(vertices, np.int64))
     places = order[np.searchsorted(index, vertices, sorter=order).clip(max=len(order) - 1)]
     return places, index[places] == vertices
+
+
+def edges_on_part(part, ends):
+    """(k, 2) the part's vertices of its edges that have these ends, (n, 2) vertices of the mesh as given."""
+    edges, count = np.asarray(part._native.edges), part.given_vertex_count
+    keys = edge_keys(part._origin.lowest(np.asarray(ends, np.int64)), count)
+    return edges[np.isin(edge_keys(part.vertex_index[edges], count), keys)]

@@ -14,7 +14,9 @@ from ..core import arrays
 from ..core.array_types import Integers, Progress
 from ..core.value import quoted
 from ..mesh.checks import check_threads, checked_evenness, only_component, real_number
+from ..mesh.edges import edge_keys
 from ..mesh.hard_edges import is_hard
+from ..mesh.origin import edges_on_part
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from .image_turns import image_turns
@@ -44,6 +46,7 @@ class TurnedTiler:
     direction : "upright" for rows that run level; a (3,) vector that u runs along, as far as it can; None for any
     lines : "free" where rows are to run along long hard edges and smooth boundaries; "whole" where they are to end
         there as well; "none"
+    marked : (n, 2) vertices of edges that are to be lines besides those of `lines_of`
     threads : as in `conformal_structure`
 
     Raises TopologyError for a surface without positions.
@@ -56,12 +59,13 @@ class TurnedTiler:
         *,
         direction: ArrayLike | str | None = UPRIGHT,
         lines: str = "none",
+        marked: ArrayLike | None = None,
         threads: int | None = 0,
     ) -> None:
         self._surface, self._component, self._threads = surface, only_component(surface), check_threads(threads or None)
         vector, _ = along(direction, None, self._component)
         self._turns, self._tiles = turns, float(max(USUAL_TILES, TILES_PER_HANDLE * self._component.genus))
-        edges = [] if lines == "none" else lines_of(self._component)
+        edges = [] if lines == "none" else lines_of(self._component, self._own_edges(marked))
         self._lines = lines if len(edges) else "none"
         self._maps = _native.TurnedMaps(
             self._component._native,
@@ -116,17 +120,35 @@ class TurnedTiler:
             lines=self._lines,
         )
 
+    def _own_edges(self, ends):
+        if ends is None:
+            return None
+        ends = arrays.integer(ends, "marked", 2, (2,))
+        return ends if self._component is self._surface else edges_on_part(self._component, ends)
+
     def _of_surface(self, vertices):
         same = self._component is self._surface
         return arrays.frozen(vertices if same else self._component.vertex_index[vertices])
 
 
-def lines_of(surface: Surface) -> Integers:
+def lines_of(surface: Surface, marked: ArrayLike | None = None) -> Integers:
     """The edges that lines of the lattice run along: long chains of hard edges, and smooth boundaries, ascending. None
-    where chains end here and there: those are noise of a scan, or folds."""
+    of these where chains end here and there: that is noise of a scan, or folds.
+
+    marked : (n, 2) vertices of the surface: edges that are lines in any case
+    """
+    ends = surface._native.edges
     edges = _native.long_lines(surface._native, np.flatnonzero(is_hard(surface, HARD)))
-    ends = np.count_nonzero(np.bincount(surface._native.edges[edges].ravel()) == 1)
-    return edges if ends <= MOST_ENDS * len(edges) else edges[:0]
+    edges = edges if are_whole(ends[edges]) else edges[:0]
+    if marked is None or not len(marked):
+        return edges
+    keys = (edge_keys(each, surface._native.vertex_count) for each in (ends, marked))
+    return np.union1d(edges, np.flatnonzero(np.isin(*keys)))
+
+
+def are_whole(ends: Integers) -> bool:
+    """Whether few chains end, of edges with these (n, 2) vertices."""
+    return np.count_nonzero(np.bincount(ends.ravel()) == 1) <= MOST_ENDS * len(ends)
 
 
 def checked_lines(lines: Any, turns: int, *others: str) -> str:

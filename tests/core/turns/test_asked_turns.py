@@ -7,7 +7,7 @@ import families
 import numpy as np
 import pytest
 from drawn_images import checker, hexagons
-from holomorph import automatic_map, automatic_maps, automatic_structure
+from holomorph import InvalidMesh, Surface, automatic_map, automatic_maps, automatic_structure
 from holomorph.maps.report import part_report
 from holomorph.mesh.edges import edge_keys
 from holomorph.quality.appearance import CONE, cost
@@ -124,3 +124,73 @@ def test_turns_cones_and_lines_are_told():
     assert words in cube.verdict.sentence and words in repr(cube.tiling)
     tiling = json.loads(json.dumps(part_report(cube)))["tiling"]
     assert (tiling["turns"], tiling["lines"], len(tiling["cones"])) == (4, "whole", 8)
+
+
+def equator(surface):
+    """(n, 2) vertices of the edges at half height."""
+    edges = np.asarray(surface._native.edges)
+    return edges[(np.abs(surface.vertices[edges][..., 2]) < 1e-9).all(axis=1)]
+
+
+def run_along(surface, uv, marked):
+    """(n,) whether a coordinate is one at both ends of each side of a triangle along these edges."""
+    following = np.roll(surface.triangles, -1, axis=1)
+    sides = np.stack([surface.triangles, following], axis=-1).reshape(-1, 2)
+    count = len(surface.vertices)
+    is_marked = np.isin(edge_keys(sides, count), edge_keys(marked, count))
+    ends = np.stack([surface.triangle_corners, np.roll(surface.triangle_corners, -1, axis=1)], axis=-1).reshape(-1, 2)
+    at = uv[ends[is_marked]]
+    return (at[:, 0] == at[:, 1]).any(axis=1)
+
+
+@pytest.mark.parametrize("lines", ["free", "whole"])
+def test_marked_edges_are_lines(lines):
+    """On a surface, and on the parts of a mesh whose vertices they name."""
+    one = surface_of(families.geodesic_sphere(8))
+    marked = equator(one)
+    assert len(marked) > 10
+    made = automatic_map(one, main="seamless", turns=4, lines=lines, marked=marked)
+    assert made.tiling.lines == lines and run_along(one, made.uv, marked).all()
+    tiling = automatic_structure(one).tile(200, turns=4, lines=lines, marked=marked, evenness=0.5)
+    assert tiling.lines == lines and run_along(one, tiling.uv, marked).all()
+    count = len(one.vertices)
+    both = Surface(
+        np.vstack([one.vertices + [3, 0, 0], one.vertices]), np.vstack([one.triangles, one.triangles + count])
+    )
+    options = {"main": "seamless", "tiles": 800, "turns": 4, "lines": lines}
+    first, second = automatic_maps(both, marked=marked + count, **options)
+    assert (first.tiling.lines, second.tiling.lines) == ("none", lines)
+    assert run_along(second.surface, second.uv, marked).all()
+
+
+def test_marked_edges_that_cost_little_are_lines_by_themselves():
+    """A ring of a tube, not one across it that ends here and there."""
+    tube = surface_of(families.cylinder(16, 24))
+    rings = np.unique(np.round(tube.vertices[:, 2], 9))
+    edges = np.asarray(tube._native.edges)
+    ring = edges[(np.abs(tube.vertices[edges][..., 2] - rings[5]) < 1e-6).all(axis=1)]
+    made = automatic_map(tube, main="seamless", turns=4, marked=ring)
+    assert made.tiling.lines == "whole" and run_along(tube, made.uv, ring).all()
+    slanted = edges[~np.isin(edge_keys(edges, len(tube.vertices)), edge_keys(ring, len(tube.vertices)))][::9]
+    other = automatic_map(tube, main="seamless", turns=4, marked=slanted)
+    assert np.array_equal(other.uv, automatic_map(tube, main="seamless", turns=4).uv)
+
+
+def test_marked_edges_of_pieces():
+    """On a dome, that a map in pieces gives a tiling of its own."""
+    surface = dome()
+    edges = np.asarray(surface._native.edges)
+    heights = surface.vertices[edges][..., 2]
+    level = np.unique(np.round(heights[heights > 0.4], 9))[0]
+    ring = edges[(np.abs(heights - level) < 1e-6).all(axis=1)]
+    made = automatic_map(surface, turns=4, lines="free", marked=ring)
+    assert made.kind == "mixed" and "free" in [tiling.lines for tiling in made.mixed.tilings]
+    assert run_along(surface, made.uv, ring).all()
+
+
+@pytest.mark.parametrize("marked", [[1, 2], [[0.5, 1.0]], [["a", "b"]]])
+def test_marked_edges_are_pairs_of_vertices(marked):
+    with pytest.raises(InvalidMesh, match="marked"):
+        automatic_maps(ball(), turns=4, marked=marked)
+    with pytest.raises(InvalidMesh, match="marked"):
+        automatic_structure(ball()).tile(turns=4, lines="free", marked=marked)
