@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from ..core.array_types import Progress
 from ..core.progress import scaled
 from ..core.value import quoted
 from ..mesh.checks import checked_evenness
 from ..quality.appearance import cost
+from ..tiling.turned import LATTICE
 from .automatic_structure import automatic_structure
 from .map import Map, form_map
 from .piece_search import EXACT, PieceSearch
 from .request import MAIN_MAPS, Request
-from .size import Window, is_in, nearest, relative_size, window_around
+from .size import TRIES, Window, is_in, nearest, relative_size, window_around
 from .tiling_search import REFUSALS, Refusal, TilingSearch
 from .untiled import FLAT, GOOD, MOST_SOFT, Untiled
 
@@ -110,8 +112,18 @@ class MapSearch:
             return self._in_pieces(None, density, 0, EXACT, progress) or made
         if not made.tiling:
             return made
+        if made.turns != 1 and not inside:
+            return self._less_bound(made.tiling, density, window, progress)
         made = self._tilings.moved(inside or found, density, True, progress)
         return made if inside else self._fitted(made, density, window, progress)
+
+    def _less_bound(self, tiling, density, window, progress):
+        """As `fitted`, of maps without lines, or of those that do not turn: these have more sizes."""
+        less = {"lines": "none"} if tiling.lines != "none" else {"turns": 1, "lattice": LATTICE[tiling.turns]}
+        request = replace(self._request, structure=self._structure, options={**self._request.options, **less})
+        search = MapSearch(request, self._threads)
+        found = search.maps(density, TRIES, False, scaled(progress, 0.0, 0.5))
+        return search.fitted(found, density, window, scaled(progress, 0.5, 1.0))
 
     def about(self, density: float, tries: int, progress: Progress | None) -> Map:
         """The map whose density is the nearest that this many numbers of tiles give."""

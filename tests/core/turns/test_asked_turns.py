@@ -158,9 +158,9 @@ def test_marked_edges_are_lines(lines):
         np.vstack([one.vertices + [3, 0, 0], one.vertices]), np.vstack([one.triangles, one.triangles + count])
     )
     options = {"main": "seamless", "tiles": 800, "turns": 4, "lines": lines}
-    first, second = automatic_maps(both, marked=marked + count, **options)
-    assert (first.tiling.lines, second.tiling.lines) == ("none", lines)
-    assert run_along(second.surface, second.uv, marked).all()
+    for part in automatic_maps(both, marked=np.vstack([marked, marked + count]), **options):
+        assert part.tiling.lines == lines and run_along(part.surface, part.uv, marked).all()
+    assert automatic_maps(both, marked=marked + count, **options)[0].tiling.lines == "none"
 
 
 def test_marked_edges_that_cost_little_are_lines_by_themselves():
@@ -194,3 +194,16 @@ def test_marked_edges_are_pairs_of_vertices(marked):
         automatic_maps(ball(), turns=4, marked=marked)
     with pytest.raises(InvalidMesh, match="marked"):
         automatic_structure(ball()).tile(turns=4, lines="free", marked=marked)
+
+
+@pytest.mark.parametrize("scale", [0.5, 0.6, 0.7, 0.8, 0.9])
+@pytest.mark.parametrize("lines", ["automatic", "whole"])
+def test_parts_have_one_size(scale, lines):
+    """Whether a map that turns has it, one without lines, or only one that is shifted: all are seamless."""
+    one = surface_of(families.geodesic_sphere(8))
+    marked, count = equator(one), len(one.vertices)
+    points = np.vstack([one.vertices + [3, 0, 0], scale * one.vertices])
+    both = Surface(points, np.vstack([one.triangles, one.triangles + count]))
+    first, second = automatic_maps(both, main="seamless", turns=4, lines=lines, marked=marked + count)
+    assert first.kind == second.kind == "tiling"
+    assert max(first.density, second.density) < 1.1 * min(first.density, second.density)
