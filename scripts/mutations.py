@@ -207,8 +207,13 @@ MUTATIONS = (
     | of(
         PACKAGE + "quality/verdicts.py",
         ("unseen", "UNSEEN = 0.3", "UNSEEN = 0.6", EVENED),
-        ("same-size", "SAME_SIZE = 1.049 ", "SAME_SIZE = 1.095 ", VERDICT),
-        ("worst-part", "ranks.max() > rank", "ranks.min() > rank", VERDICT),
+        ("by-area", 'weights @ lists["cost"]', 'np.mean(lists["cost"])', VERDICT),
+        ("told-overlaps", "cost(quality) - of_overlaps(quality)", "cost(quality)", VERDICT),
+        ("folded", "int(seen.folded > IN_VIEW)", "int(seen.folded > 9)", VERDICT),
+    )
+    | of(
+        PACKAGE + "mesh/folds.py",
+        ("blades", "np.isin(sharp, ", "~np.isin(sharp, ", VERDICT),
     )
     | of(
         PACKAGE + "maps/size.py",

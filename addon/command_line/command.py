@@ -173,6 +173,6 @@ def _check_strictly(entries):
         skipped = [part["reason"] for part in entry.get("components", []) if not part["done"]]
         for reason in [entry["refused"]] if "refused" in entry else skipped:
             raise NotFit(f"{entry['object']}: a part has no map: {reason}")
-        found = stored.verdict(entry)
+        found = stored.verdicts(entry)[0]
         if not found.is_fit:
-            raise NotFit(f"{entry['object']}: {found.text}")
+            raise NotFit(f"{entry['object']}: {found.sentence}")

@@ -15,7 +15,7 @@ from ..operators import (
     texel_operators,
     tools,
 )
-from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
+from ..operators.mapping import HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
 from ..operators.mixins import CONVERT, CONVERTIBLE
 from ..overlays import overlay
 from . import lines
@@ -152,8 +152,8 @@ def _draw_result(layout, context, obj):
         layout.operator(tools.HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
     text = obj.get(report.PROPERTY)
     if text:
-        is_edited, offers = stored.is_edited(stored.parsed(text), obj.data), (HOLOMORPH_OT_tile, HOLOMORPH_OT_islands)
-        verdict_view.draw(layout, context, text, *(offer.bl_idname for offer in offers), is_edited)
+        is_edited = stored.is_edited(stored.parsed(text), obj.data)
+        verdict_view.draw(layout, context, text, HOLOMORPH_OT_tile.bl_idname, is_edited)
 
 
 def _draw_menu_entry(self, _context):

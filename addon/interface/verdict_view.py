@@ -3,60 +3,76 @@
 
 import functools
 import math
+from typing import NamedTuple
 
+from ..native import holomorph
 from ..results import stored
 from . import lines
 
 REPAIR = "mesh.holomorphic_repair"
 EDITED = "Before the last edit:"
-ICONS = {"good": "CHECKMARK", "fair": "CHECKMARK", "poor": "ERROR", "unusable": "ERROR"}
+ICONS = {"good": "CHECKMARK", "fair": "NONE", "poor": "ERROR", "unusable": "ERROR"}
 
 
-def draw(layout, context, text, tile_operator, islands_operator, is_edited=False):
-    """Out of a stored report; the operators are offered where poles would help, and islands.
+def draw(layout, context, text, tile_operator, is_edited=False):
+    """Out of a stored report; the operator is offered where seams are in view, and where poles would help.
 
     is_edited : whether the mesh is another than then: the verdict has no tick
     """
-    whole, is_joined, found, places, measured = read(text)
-    if found is None:
+    read_of = read(text)
+    if read_of is None:
         return
     box = layout.box().column(align=True)
-    if whole:
-        lines.draw(box, context, whole)
-    if is_joined:
-        box.operator(REPAIR, text="Merge by Distance").kinds = {"WELD"}  # Blender's own is grey outside of Edit Mode
+    if read_of.whole:
+        lines.draw(box, context, read_of.whole)
+    if read_of.joined:  # Blender's own operator is grey outside of Edit Mode
+        box.operator(REPAIR, text=f"Merge {read_of.joined:,} Vertices").kinds = {"WELD"}
     if is_edited:
         lines.draw(box, context, EDITED, "INFO")
-    lines.draw(box, context, found.sentence, "NONE" if is_edited else ICONS[found.level])
-    if places:
-        lines.draw(box, context, places)
+    for level, sentence in zip(read_of.levels, read_of.told):
+        lines.draw(box, context, sentence, "NONE" if is_edited else ICONS[level])
+    if read_of.places:
+        lines.draw(box, context, read_of.places)
         box.operator(tile_operator, text="Add Poles There").poles = "COARSE"
-    elif found.advice and not found.is_fit:
-        lines.draw(box, context, f"Try: {found.advice}")
-    if found.offers_islands and not found.is_fit:
-        box.operator(islands_operator)
-    for name, value in measured:
+    elif read_of.has_seams:
+        box.operator(tile_operator, text="Make It Seamless")
+    for name, value in read_of.numbers:
         row = box.split(factor=0.72)
         row.label(text=name)
         row.label(text=value)
 
 
-NOTHING = "", False, None, "", []
+class Read(NamedTuple):
+    """What a panel shows of a stored report.
+
+    joined : vertices that were joined for the maps, and are apart in the mesh; levels, told : of the verdicts
+    has_seams : in view; places : sentence about coarse ones; numbers : see there
+    """
+
+    whole: str
+    joined: int
+    levels: list
+    told: list
+    has_seams: bool
+    places: str
+    numbers: list
 
 
 @functools.lru_cache(maxsize=16)
 def read(text):
-    """(`stored.whole`, `stored.is_joined`, `Verdict`, sentence about coarse places, `numbers`) out of a stored report;
-    `NOTHING` if there is none, or someone has edited it."""
+    """The `Read` of a stored report; None if there is none, or someone has edited it."""
     entry = stored.parsed(text)
     try:
-        found, places = stored.verdict(entry), entry.get("coarse_places")
-        if found is None:
-            return NOTHING
-        told = stored.coarse_sentence(places) if places else ""
-        return stored.whole(entry), stored.is_joined(entry), found, told, numbers(entry)
+        found, places = stored.verdicts(entry), entry.get("coarse_places")
+        if not found:
+            return None
+        coarse = stored.coarse_sentence(places) if places else ""
+        levels, told = [one.level for one in found], holomorph.quality.verdicts.told(entry)
+        joined, seams = stored.joined(entry), entry["whole"]["seams"] or 0.0
+        has_seams = seams > holomorph.quality.verdicts.IN_VIEW
+        return Read(stored.whole(entry), joined, levels, told, has_seams, coarse, numbers(entry))
     except (KeyError, TypeError, IndexError, AttributeError):
-        return NOTHING
+        return None
 
 
 def numbers(entry):

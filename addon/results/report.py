@@ -25,7 +25,7 @@ TEXT = "Holomorphic Report"
 def object_report(obj, made, written=(), new_seams=0, write_options=None):
     """One object: its maps as written, the options with which they were, and the report of each part."""
     solved, given = made.solved, [(part.component.surface, part.map, part.skipped) for part in made.parts]
-    about = holomorph.report.parts_report(given, solved.left_out, _repairs(solved))
+    about = holomorph.report.parts_report(given, solved.left_out, _repairs(solved), made.options.arrangement)
     for part, entry in zip(made.parts, about["components"]):
         if part.component.note:
             entry["not_followed"] = part.component.note
@@ -169,10 +169,10 @@ class Outcome:
 
     def judge(self, obj, entry):
         """Adds the verdict on an object's map: among the problems where no texture can be put on."""
-        found, whole = stored.verdict(entry), entry["whole"]["text"]
-        told = f"{whole}. {found.text}" if whole else found.text
+        found, whole = stored.verdicts(entry)[0], entry["whole"]["text"]
+        told = ". ".join(filter(None, [whole, *holomorph.quality.verdicts.told(entry)]))
         (self.notes if found.is_fit else self.problems).append(f"{obj.name}: {told}")
-        limit = holomorph.quality.verdicts.OVERLAPPING[0]
+        limit = holomorph.quality.verdicts.OVERLAPPING[1]
         overlapping = [
             str(index)
             for index, part in enumerate(entry["components"], 1)
@@ -227,7 +227,7 @@ def with_coarse_places(obj, polygons, entry):
     """The report's entry with the places that the main map leaves coarse, where it is uneven, and how many faces are
     too small in it for the single precision of Blender's UV maps."""
     ratios = [part["main_map"]["size_range"] for part in entry["components"] if part["done"]]
-    if all(ratio is not None and ratio <= holomorph.UNEVEN[0] for ratio in ratios):
+    if all(ratio is not None and ratio <= holomorph.UNEVEN[-1] for ratio in ratios):
         return entry | {"coarse_places": [], "faces_without_area": 0}
     distortion = holomorph.distortion
     found = distortion.measure(polygons, uv_maps.read_corners(obj.data, polygons, entry["maps"][0]["name"]))

@@ -67,10 +67,10 @@ def as_tuple(value):
     return tuple(map(as_tuple, value)) if isinstance(value, list) else value
 
 
-def verdict(entry):
-    """The package's `Verdict` on an object or a part in a report; None where there is none."""
-    found = entry.get("verdict")
-    return holomorph.Verdict(**found) if found else None
+def verdicts(entry):
+    """The package's `Verdict`s on an object in a report, to tile and to bake; none where there are none."""
+    names = holomorph.quality.verdicts.PURPOSES
+    return [holomorph.Verdict(**entry[name]) for name in names] if entry.get("verdict") else []
 
 
 def whole(entry):
@@ -81,9 +81,9 @@ def whole(entry):
     return text[:1].upper() + text[1:]
 
 
-def is_joined(entry):
-    """Whether vertices at one place were joined for the maps, and the mesh still has them apart."""
-    return entry["repairs"]["joined_vertices"]["count"] > 0
+def joined(entry):
+    """How many vertices at one place were joined for the maps, while the mesh has them apart."""
+    return entry["repairs"]["joined_vertices"]["count"]
 
 
 def is_edited(entry, mesh):
@@ -116,9 +116,8 @@ def cut_lines(entry):
     """What was cut and joined for the maps, by reasons."""
     repairs = entry["repairs"]
     yield from (cut["text"][0].upper() + cut["text"][1:] for cut in repairs["cuts"])
-    joined = repairs["joined_vertices"]["count"]
-    if joined:
-        yield f"{joined:,} vertices at the places of others were joined"
+    if joined(entry):
+        yield f"{joined(entry):,} vertices at the places of others were joined"
 
 
 def _topology(part):

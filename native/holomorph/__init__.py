@@ -4,8 +4,8 @@
 >>> surface = holomorph.Surface.read("examples/pretzel.obj")
 >>> structure = holomorph.conformal_structure(surface)
 >>> uv = structure.uv(structure.balanced_coefficients())
->>> print(structure.quality(uv).verdict.text)
-Even
+>>> print(structure.quality(uv).verdict.sentence)
+Uneven (squares of 1 to 2.1)
 
 Conventions. A one-form is one real number per edge, for the direction from the lower to the higher vertex index. Forms
 are rows. A canonical basis has a_i . b_j = delta_ij; the holomorphic basis has period 1 over a_j for theta_j and 0 over
@@ -68,7 +68,7 @@ from .moduli.theta_constants import Hyperelliptic, hyperelliptic
 from .tiles.tiled_surface import TiledSurface
 from .tiling.tiling import Tiler, place_poles
 from .tiling.tilings import PlacedPoles, Rounding, Tiling
-from .quality.verdicts import UNEVEN, Verdict, overall, verdict
+from .quality.verdicts import UNEVEN, Seen, Verdict, verdict
 from .forms.form_structure import Zeros
 
 __all__ = [
@@ -114,6 +114,7 @@ __all__ = [
     "Residuals",
     "Rounding",
     "SOLVERS",
+    "Seen",
     "SiegelReduction",
     "SolverError",
     "SolverReport",
@@ -156,7 +157,6 @@ __all__ = [
     "islands",
     "layout",
     "log_map",
-    "overall",
     "place",
     "place_poles",
     "punch_holes",

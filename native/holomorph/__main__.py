@@ -139,7 +139,9 @@ def mapped(options, recipe, found):
         "holomorph": __version__,
         "mesh": str(options.mesh),
         "faces": len(surface.face_offsets) - 1,
-        **whole_report([part.map for part in parts if part.map], reports, surface.repairs),
+        **whole_report(
+            [part.map for part in parts if part.map], reports, surface.repairs, mapping.arrangement_of(recipe.maps)
+        ),
         "repairs": repairs_report(surface.repairs),
         "texture": plain(found and vars(found)),
         "components": reports,
@@ -167,7 +169,7 @@ def _status(report, is_strict):
     if is_strict and not_done:
         count = len(report["components"])
         return failed(EXIT_STRICT, f"{len(not_done)} of {count} parts have no map: {not_done[0]['reason']}")
-    return failed(EXIT_STRICT, found.text) if is_strict and not found.is_fit else 0
+    return failed(EXIT_STRICT, found.sentence) if is_strict and not found.is_fit else 0
 
 
 if __name__ == "__main__":

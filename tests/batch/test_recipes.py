@@ -172,7 +172,7 @@ def test_shape_of_a_sphere_and_of_a_disk(tmp_path):
 def test_strict(torus, tmp_path):
     """A torus is fit, but not one that is so coarse that it is sheared."""
     good, bad = torus_obj(tmp_path / "good.obj", 40, 20), torus_obj(tmp_path / "bad.obj", 3, 3)
-    (tmp_path / "recipe.toml").write_text("[maps]\nmain = 'balanced'\n")
+    (tmp_path / "recipe.toml").write_text("[maps]\nmain = 'seamless'\n")
     arguments = ("--recipe", tmp_path / "recipe.toml", "--workers", 1, "--strict")
     assert run(good, "--out", tmp_path / "out", *arguments).returncode == 0
     result = run(good, bad, "--out", tmp_path / "out", *arguments)

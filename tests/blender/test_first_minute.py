@@ -114,7 +114,7 @@ def test_an_even_map_is_called_so_in_a_line():
     obj = torus()
     run(main="SEAMLESS")
     layout = drawn(obj)
-    assert layout.texts[0].startswith("Even, seamless") and not layout.buttons
+    assert layout.texts[0].startswith("To tile: ") and ", seamless" in layout.texts[0] and not layout.buttons
     assert stored_report(obj)["verdict"]["level"] in ("good", "fair")
     flipped = stored_report(obj)["components"][0]["main_map"]["flipped_triangles"]
     assert layout.texts[layout.texts.index("Flipped triangles") + 1] == str(flipped)
@@ -163,7 +163,8 @@ def test_vertices_that_were_joined_are_offered_to_be_merged():
     ends = np.cumsum([len(face) for face in faces])
     apart = [tuple(range(end - len(face), end)) for face, end in zip(faces, ends)]
     layout = drawn_after_run(mesh_object("Apart", np.array(vertices)[corners], apart))
-    assert layout.buttons[0] == "Merge by Distance" and "vertices joined" in layout.texts[0]
+    apart_count = len(corners) - len(vertices)
+    assert layout.buttons[0] == f"Merge {apart_count:,} Vertices" and "vertices joined" in layout.texts[0]
     name, properties = layout.calls[0]
     group, operator = name.split(".")
     assert getattr(getattr(bpy.ops, group), operator)(**vars(properties)) == {"FINISHED"}
@@ -197,11 +198,14 @@ def test_lines_are_broken_where_they_do_not_fit():
     assert list(lines.broken("", is_fit)) == [""]
 
 
-@pytest.mark.parametrize(("level", "told"), [("fair", ([], ["Ring: Even"])), ("poor", (["Ring: Even"], []))])
+RING = "Ring: To tile: even. To bake: nothing overlaps"
+
+
+@pytest.mark.parametrize(("level", "told"), [("fair", ([], [RING])), ("poor", ([RING], []))])
 def test_a_poor_map_is_a_warning(level, told):
     outcome = module("results.report").Outcome()
-    entry = {"verdict": {"level": level, "sentence": "Even", "advice": ""}, "components": [], "faces_without_area": 0}
-    entry["whole"] = {"text": ""}
+    said = {"verdict": {"level": level, "sentence": "Even"}, "bake": {"level": "good", "sentence": "Nothing overlaps"}}
+    entry = said | {"components": [], "faces_without_area": 0, "whole": {"text": ""}}
     outcome.judge(SimpleNamespace(name="Ring"), entry)
     assert (outcome.problems, outcome.notes) == told
 
@@ -215,7 +219,7 @@ def test_a_narrow_panel_has_more_lines_of_the_same_words():
 
 def test_a_report_of_an_earlier_version_is_no_error():
     obj = torus()
-    edited = ('{"verdict": 1}', '{"verdict": {"level": "good", "sentence": "Even", "advice": ""}}')
+    edited = ('{"verdict": 1}', '{"verdict": {"level": "good", "sentence": "Even"}}')
     for stored in ("", "{", "[]", "{}", '{"components": []}', *edited):
         obj["holomorph_report"] = stored
         assert drawn(obj).texts == []
@@ -310,7 +314,7 @@ def test_a_map_without_a_tiling_gets_its_poles_by_itself():
     obj = spikes()
     run()
     bpy.ops.uv.holomorphic_tile(poles="COARSE")
-    assert stored_report(obj)["verdict"]["level"] == "good" and np.isfinite(uv(obj)).all()
+    assert stored_report(obj)["verdict"]["level"] in ("good", "fair") and np.isfinite(uv(obj)).all()
 
 
 # ---- dials that do something ----------------------------------------------------------------------------------------

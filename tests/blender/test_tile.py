@@ -307,7 +307,7 @@ def test_report_and_panel_begin_with_words(calls):
     tile()
     part = stored_report(obj)["components"][0]
     verdict, residues = part["main_map"]["verdict"]["sentence"], np.array(part["tiling"]["residues"])
-    assert verdict.startswith("Even, seamless") and f"{len(residues)} poles" in verdict
+    assert ", seamless" in verdict and f"{len(residues)} poles" in verdict
     assert np.array_equal(residues, np.round(residues)) and np.array_equal(residues.sum(axis=0), (0, 0))
     assert min(part["tiling"]["orders"]) > 0
     lines = [line.strip() for line in module("results.stored").summary(obj["holomorph_report"])]

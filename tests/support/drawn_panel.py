@@ -33,7 +33,5 @@ def drawn(obj, width=220, is_edited=False):
     style = SimpleNamespace(widget=SimpleNamespace(points=11))
     preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0), ui_styles=[style])
     layout, context = Drawn(), SimpleNamespace(region=SimpleNamespace(width=width), preferences=preferences)
-    verdict_view.draw(
-        layout, context, obj["holomorph_report"], "uv.holomorphic_tile", "uv.holomorphic_islands", is_edited
-    )
+    verdict_view.draw(layout, context, obj["holomorph_report"], "uv.holomorphic_tile", is_edited)
     return layout

@@ -12,9 +12,13 @@ class Measured:
     size_range: float = 1.0
     mean_angle: float = 1.0
     lost_part: float = 0.0
-    long_part: float = 0.0
+    flipped_part: float = 0.0
     overlapping_part: float | None = None
     unseen_angle: float = 0.0
     flipped: tuple = (False,)
     collapsed: tuple = (False,)
     area: np.ndarray = field(default_factory=lambda: np.ones(1))
+
+    @property
+    def density_ratio(self):
+        return self.size_range**2

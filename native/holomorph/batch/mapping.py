@@ -48,7 +48,7 @@ def map_parts(surface, recipe, cut_edges=None, threads=None):
 def main_uv(surface, parts, maps):
     """(#C, 2) of the whole surface; see `holomorph.arrangement`. Corners of parts without a map are 0."""
     made = [part.map for part in parts if part.map is not None]
-    return arrangement.arranged(made, _corner_count(surface), _arrangement(maps))[surface.corner_index]
+    return arrangement.arranged(made, _corner_count(surface), arrangement_of(maps))[surface.corner_index]
 
 
 def form_uvs(surface, parts, maps):
@@ -56,7 +56,7 @@ def form_uvs(surface, parts, maps):
     done = [(part.surface, part.structure) for part in parts if part.map is not None]
     count = max((structure.form_count for _, structure in done), default=0)
     for form in range(min(maps.forms, count)):
-        uv = arrangement.arranged_form(done, form, _corner_count(surface), _arrangement(maps))
+        uv = arrangement.arranged_form(done, form, _corner_count(surface), arrangement_of(maps))
         yield uv[surface.corner_index]
 
 
@@ -65,7 +65,7 @@ def _corner_count(surface):
     return int(surface.corner_index.max()) + 1
 
 
-def _arrangement(maps):
+def arrangement_of(maps):
     return arrangement.Arrangement(density=maps.density, rotation=math.radians(maps.rotation), margin=maps.margin)
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from ..commands.console import shown
-from ..quality.verdicts import LEVELS, Verdict, special
+from ..quality.verdicts import LEVELS, special, told
 from .errors import DONE
 from .journal import noted
 
@@ -73,8 +73,8 @@ def _asset(task):
 
 
 def _words(report):
-    """The verdict in words: what is seen, and what would help."""
-    return [Verdict(**report["verdict"]).text] if report.get("verdict") else []
+    """The verdicts in words: what is seen of a texture, and what a bake meets."""
+    return told(report)
 
 
 def _brief(texts):

@@ -83,7 +83,9 @@ def _mapped(task):
         "holomorph": __version__,
         "name": task.name,
         "faces": len(surface.face_offsets) - 1,
-        **whole_report([part.map for part in parts if part.map], reports, surface.repairs),
+        **whole_report(
+            [part.map for part in parts if part.map], reports, surface.repairs, mapping.arrangement_of(recipe.maps)
+        ),
         "repairs": repairs_report(surface.repairs),
         "texture": plain(found and vars(found)),
         "components": reports,

@@ -14,7 +14,7 @@ from ..core.value import Value, counted
 from ..mesh.hard_edges import seen
 from ..mesh.surface import Surface
 from ..packing.layout import pack
-from ..quality.appearance import HARD_SEAM, OVERLAPPING, OVERLAPS, ROUNDING, SEAM, cost
+from ..quality.appearance import HARD_SEAM, SEAM, cost, of_overlaps
 from ..quality.overlap import overlapping_part
 from ..quality.quality import Quality
 from .island_cuts import Cuts, corner_pieces
@@ -64,8 +64,7 @@ class Islands(Value):
     @property
     def overlap_cost(self) -> float:
         """The part of the cost that is of islands that lie over themselves."""
-        overlapping = self.quality.overlapping_part or 0.0
-        return OVERLAPPING * overlapping + OVERLAPS * (overlapping > ROUNDING)
+        return of_overlaps(self.quality)
 
     def _facts(self):
         return [counted(self.count, "island"), *self.quality._facts()]

@@ -91,6 +91,13 @@ class Square:
         side = self._packed[1]
         return 1 / side if side > 0 else math.inf
 
+    @property
+    def used(self) -> float:
+        """Part of the square that the maps cover, where they do not lie over themselves."""
+        side = self._packed[1]
+        covered = sum(found.area * scale**2 for found, scale in zip(self._frames, self._scales))
+        return covered / side**2 if side > 0 else 0.0
+
     def factor(self, part: int) -> complex:
         """The factor by which the map of a part is multiplied."""
         return self.per_length * self._scales[part] * cmath.exp(1j * self.arrangement.rotation)

@@ -74,7 +74,7 @@ def automatic_map(
     >>> surface = holomorph.Surface.read("examples/pretzel.obj")
     >>> found = holomorph.automatic_map(surface)
     >>> print(found.kind, found.verdict.sentence)
-    tiling Even, seamless, no poles
+    tiling Fairly even, seamless, no poles
     """
     check_type(surface, Surface)
     options = {"lattice": lattice, "boundary": boundary, "turn": turn, "max_turn": max_turn, "max_added": max_added}

@@ -16,11 +16,12 @@ from ..core.value import Value
 from ..cutting.island_layout import Islands
 from ..forms.pole_structure import PoleStructure
 from ..mesh.checks import checked_evenness
+from ..mesh.folds import folds
 from ..mesh.surface import Surface
-from ..quality.appearance import cost
+from ..quality.appearance import CONE, HARD_SEAM, POLE, SEAM, cost
 from ..quality.distortion import WorstPlace, drawn_densities, worst_places
 from ..quality.quality import Quality
-from ..quality.verdicts import Verdict
+from ..quality.verdicts import Seen, Verdict, verdict
 from ..tiles.tiled_surface import TiledSurface
 from ..tiling.tiling import Tiling
 from .automatic_structure import AnyStructure
@@ -92,16 +93,34 @@ class Map(Value):
     @property
     def cost(self) -> float:
         """The cost to the eye, see `appearance.cost`."""
+        return cost(self.quality, len(self.poles), *self._seam_lengths, len(self.cones))
+
+    @cached_property
+    def seen(self) -> Seen:
+        """What is seen of it besides its squares."""
+        soft, hard = self._seam_lengths
+        costs = SEAM * soft + HARD_SEAM * hard + POLE * len(self.poles) + CONE * len(self.cones)
+        poles = len(self.poles) if self.is_tiled or len(self.poles) else None
+        native = self.surface._native
+        folded = 0.0 if self.surface.vertices is None else self._over_size(native.edge_lengths[folds(self.surface)])
+        lines = next((made.lines for made in self._tilings), "none")
+        return Seen(costs, soft, hard, poles, self.turns, len(self.cones), lines, folded)
+
+    @property
+    def _seam_lengths(self):
+        """(length of the seams across the smooth, and along hard edges) over the root of the area."""
         if self.islands or self.mixed:
-            return (self.islands or self.mixed).cost
-        lengths = self.structure._triangulation.edge_lengths
-        seams = 0.0 if self.tiling else lengths[self.structure.seams].sum() / math.sqrt(self.surface.area)
-        return cost(self.quality, len(self.poles), soft_seams=float(seams), cones=len(self.cones))
+            return (self.islands or self.mixed).soft_length, (self.islands or self.mixed).hard_length
+        lengths = self.structure._triangulation.edge_lengths[self.structure.seams]
+        return 0.0 if self.tiling else self._over_size(lengths), 0.0
+
+    def _over_size(self, lengths):
+        return float(lengths.sum()) / math.sqrt(self.surface.area) if self.surface.area > 0 else 0.0
 
     @property
     def verdict(self) -> Verdict:
         """The `Verdict` on the map."""
-        return self.tiling.verdict if self.tiling else self.quality.verdict
+        return verdict(self.quality, self.seen)
 
     @property
     def evenness(self) -> float:

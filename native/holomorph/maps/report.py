@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike
 from ..core.value import plain
 from ..forms.form_structure import CertifiedStructure
 from ..quality.quality import Quality
-from ..quality.verdicts import SMALL_PART, Verdict, overall
+from ..quality.verdicts import Seen, Verdict, baking, verdict
+from .arrangement import Arrangement, square
 
 if TYPE_CHECKING:
     from ..mesh.repairs import Refused, Repairs
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     from .automatic_structure import AnyStructure
     from .map import Map
 
+SMALL_PART = 0.01  # part of the area of all parts: the size of squares on less is not told
+SAME_SIZE = 1.049  # largest over smallest side of squares of parts that is not seen: 10 % in area
+NO_AREA = "area"  # in the reasons why faces are left out: of these nobody needs to know
 LISTED = 20  # elements of a repair that a report names
 WORDS = {
     "tiling": "seamless",
@@ -35,6 +39,7 @@ WORDS = {
     "rectangle": "rectangular",
     "triangle": "triangular",
 }
+PLAIN_ARRANGEMENT = Arrangement()
 PLAIN = ("tiling", "forms")  # kinds that need no word where the mesh is one part: the verdict says the rest
 
 
@@ -127,17 +132,25 @@ def map_report(coefficients: ArrayLike, quality: Quality, found: Verdict | None 
     )
 
 
-def whole_report(maps: Sequence[Map], parts: Sequence[dict[str, Any]], repairs: Repairs) -> dict[str, Any]:
-    """`verdict` and `whole` of a mesh, as `whole` takes what it is made of; both are None without a map."""
-    found = whole(maps, parts, repairs)
+def whole_report(
+    maps: Sequence[Map],
+    parts: Sequence[dict[str, Any]],
+    repairs: Repairs,
+    arrangement: Arrangement = PLAIN_ARRANGEMENT,
+) -> dict[str, Any]:
+    """`verdict`, `bake` and `whole` of a mesh, as `whole` takes what it is made of; all are None without a map."""
+    found = whole(maps, parts, repairs, arrangement)
     if found is None:
-        return {"verdict": None, "whole": None}
-    figures = {name: value for name, value in vars(found).items() if name != "verdict"}
-    return plain({"verdict": vars(found.verdict), "whole": figures})
+        return dict.fromkeys(("verdict", "bake", "whole"))
+    figures = {name: value for name, value in vars(found).items() if name not in ("verdict", "bake")}
+    return plain({"verdict": vars(found.verdict), "bake": vars(found.bake), "whole": figures})
 
 
 def parts_report(
-    parts: Sequence[tuple[Surface, Map | None, str]], refused: Sequence[Refused], repairs: Repairs
+    parts: Sequence[tuple[Surface, Map | None, str]],
+    refused: Sequence[Refused],
+    repairs: Repairs,
+    arrangement: Arrangement = PLAIN_ARRANGEMENT,
 ) -> dict[str, Any]:
     """What is known of a mesh: `components`, the reports of its parts and of what was left out, its `repairs`, and the
     `whole_report`.
@@ -146,7 +159,7 @@ def parts_report(
     """
     done = [part_report(made) if made else skipped_report(surface, reason) for surface, made, reason in parts]
     entries = done + [refused_report(one) for one in refused]
-    whole = whole_report([made for _, made, _ in parts if made], entries, repairs)
+    whole = whole_report([made for _, made, _ in parts if made], entries, repairs, arrangement)
     return {**whole, "repairs": repairs_report(repairs), "components": entries}
 
 
@@ -175,6 +188,7 @@ def _topology(surface):
         "vertices": len(surface.vertex_index),
         "genus": surface.genus,
         "boundary_count": surface.boundary_count,
+        "area": surface.area,
     }
 
 
@@ -182,9 +196,10 @@ def _topology(surface):
 class Whole:
     """text : kinds of the parts, what was left out, cut and joined; "" for one part of which nothing is to be said
     mean_angle, size_range : as those of `Quality`, over all parts as they are arranged
-    sizes : how many times as long squares of one part are as those of another at most, see `overall`
+    sizes : how many times as long squares of one part are as those of another at most
     unmapped_faces : number of faces without a map
-    verdict : the `Verdict`
+    seams : length of those in view over the root of the area, the mean over the parts
+    verdict, bake : the `Verdict`s on the maps of all parts together, see `verdict` and `baking`
     """
 
     text: str
@@ -192,10 +207,17 @@ class Whole:
     size_range: float
     sizes: float
     unmapped_faces: int
+    seams: float | None
     verdict: Verdict
+    bake: Verdict
 
 
-def whole(maps: Sequence[Map], parts: Sequence[dict[str, Any]], repairs: Repairs) -> Whole | None:
+def whole(
+    maps: Sequence[Map],
+    parts: Sequence[dict[str, Any]],
+    repairs: Repairs,
+    arrangement: Arrangement = PLAIN_ARRANGEMENT,
+) -> Whole | None:
     """The `Whole` of a mesh; None where no part has a map.
 
     maps : of the parts that have one
@@ -204,17 +226,19 @@ def whole(maps: Sequence[Map], parts: Sequence[dict[str, Any]], repairs: Repairs
     """
     if not maps:
         return None
-    areas = np.array([made.surface.area for made in maps])
-    sizes = _sizes(maps)
+    areas, sizes = np.array([made.surface.area for made in maps]), _sizes(maps)
     quality = Quality.joined([made.quality for made in maps], sizes)
-    unmapped = sum(part["faces"] for part in parts if not part["done"])
-    faces = sum(part["faces"] for part in parts)
-    seen = sizes[(areas >= SMALL_PART * areas.sum()) & (sizes > 0)]
-    spread = math.sqrt(seen.max() / seen.min()) if len(seen) else 1.0
-    order = np.argsort(-areas, kind="stable")
-    found = overall([maps[k].verdict for k in order], areas[order], sizes=spread, unmapped=unmapped / faces)
-    text = "; ".join(_words(maps, unmapped, repairs))
-    return Whole(text, quality.mean_angle, quality.size_range, spread, unmapped, found)
+    left_out = [part for part in parts if not part["done"]]
+    blank = sum(part.get("area", 0.0) for part in left_out)
+    seen = Seen.joined([made.seen for made in maps], areas, blank / (areas.sum() + blank or 1.0))
+    shown = sizes[(areas >= SMALL_PART * areas.sum()) & (sizes > 0)]
+    spread = math.sqrt(shown.max() / shown.min()) if len(shown) else 1.0
+    is_tiled = any(made.is_tiled for made in maps)
+    used = 0.0 if is_tiled else square(maps, arrangement).used
+    bake = baking(quality.overlapping_part or 0.0, is_tiled, used)
+    text = "; ".join(_words(maps, spread, left_out, repairs))
+    figures = quality.mean_angle, quality.size_range, spread, sum(part["faces"] for part in left_out), seen.seams
+    return Whole(text, *figures, verdict(quality, seen), bake)
 
 
 def _sizes(maps):
@@ -224,14 +248,17 @@ def _sizes(maps):
     return np.array([made.density / unit if made.is_tiled and unit > 0 else float(made.density > 0) for made in maps])
 
 
-def _words(maps, unmapped, repairs):
+def _words(maps, spread, left_out, repairs):
     kinds = Counter(made.kind for made in maps)
     if len(maps) > 1:
         yield f"{len(maps):,} parts: " + ", ".join(f"{count:,} {WORDS[kind]}" for kind, count in kinds.most_common())
     elif maps[0].kind not in PLAIN:
         yield WORDS[maps[0].kind]
-    if unmapped:
-        yield f"{unmapped:,} faces left out" if unmapped > 1 else "1 face left out"
+    if spread > SAME_SIZE:
+        yield f"squares differ in size between parts by a factor of {spread:.2g}"
+    told = sum(part["faces"] for part in left_out if NO_AREA not in part["reason"])
+    if told:
+        yield f"{told:,} faces left out" if told > 1 else "1 face left out"
     yield from (cut.sentence for cut in repairs.cuts)
     yield from repairs.notes
     if len(repairs.joined_vertices):

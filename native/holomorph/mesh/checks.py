@@ -79,14 +79,6 @@ def real_number(value: object, name: str, positive: bool = False) -> float:
     return found
 
 
-def ratio(value, name):
-    """`value` as a float, which may be infinite. @throws ValueError"""
-    found = as_float(value)
-    if math.isnan(found):
-        raise ValueError(f"{name} is {quoted(value)}; a number is needed")
-    return found
-
-
 def whole_number(value: object, name: str, least: int = 0) -> int:
     """`value` as an integer that indices reach. @throws ValueError"""
     found = as_float(value)

@@ -33,6 +33,11 @@ def cost(quality: "Quality", poles: int = 0, soft_seams: float = 0.0, hard_seams
     if not ratio >= 1 or math.isinf(ratio):
         return math.inf
     squares = math.log(ratio) + SHEAR * (quality.mean_angle - 1)
-    overlapping = quality.overlapping_part or 0.0
-    lost = FLIPPED * quality.flipped_part + OVERLAPPING * overlapping + OVERLAPS * (overlapping > ROUNDING)
+    lost = FLIPPED * quality.flipped_part + of_overlaps(quality)
     return squares + lost + SEAM * soft_seams + HARD_SEAM * hard_seams + POLE * poles + CONE * cones
+
+
+def of_overlaps(quality: "Quality") -> float:
+    """The part of the cost that is of what lies over itself: a texture that tiles does not show it."""
+    overlapping = quality.overlapping_part or 0.0
+    return OVERLAPPING * overlapping + OVERLAPS * (overlapping > ROUNDING)

@@ -15,7 +15,7 @@ from ..core import arrays
 from ..core.array_types import Flags, Reals
 from ..core.value import Value
 from .distortion import HIGH, LOW, MOST_ANGLE, quantiles
-from .verdicts import LONG, UNSEEN, Verdict, verdict
+from .verdicts import UNSEEN, Verdict, verdict
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -67,14 +67,14 @@ class Quality(Value):
         mean = float(np.average(np.minimum(angle, MOST_ANGLE), weights=weights))
         figures = mean, float(high / low) if low > 0 else np.inf, float(median)
         shares = [each._weights.sum() for each in qualities]
-        long, unseen, overlapping = (
+        unseen, overlapping = (
             float(np.average([getattr(each, name) or 0.0 for each in qualities], weights=shares))
-            for name in ("long_part", "unseen_angle", "overlapping_part")
+            for name in ("unseen_angle", "overlapping_part")
         )
         is_island = any(each.overlapping_part is not None for each in qualities)
         of_triangles = map(arrays.frozen, (angle, density, flipped))
         result = cls(*of_triangles, *figures, None, overlapping if is_island else None, unseen)
-        vars(result).update(long_part=long, _weights=weights)
+        vars(result)["_weights"] = weights
         return result
 
     def evened_from(self, before: Quality, evenness: float) -> Quality:
@@ -95,7 +95,7 @@ class Quality(Value):
     def _scaled(self, factor):
         area = arrays.frozen(self.area * factor)
         result = replace(self, area=area, median_density=self.median_density * factor)
-        vars(result).update(long_part=self.long_part, _weights=self._weights)
+        vars(result)["_weights"] = self._weights
         return result
 
     def _facts(self):
@@ -104,7 +104,7 @@ class Quality(Value):
         return [f"size range {self.size_range:.4g}", f"angle distortion {self.mean_angle:.4g}", *counts]
 
     def __getstate__(self):
-        vars(self).update(long_part=self.long_part, _weights=self._weights)  # these need the triangulation
+        vars(self)["_weights"] = self._weights  # these need the triangulation
         return super().__getstate__()
 
     @property
@@ -134,11 +134,6 @@ class Quality(Value):
     @cached_property
     def lost_part(self) -> float:
         return float(np.average(self.flipped | self.collapsed, weights=self._weights))
-
-    @cached_property
-    def long_part(self) -> float:
-        is_long = self._sides[:, 2] ** 2 > 2 * LONG * self._weights
-        return float(np.average(is_long, weights=self._weights))
 
     @cached_property
     def verdict(self) -> Verdict:

@@ -2,53 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core import arrays
 from ..core.value import counted
-from ..mesh.checks import ratio
+from .appearance import FLIPPED, cost, of_overlaps
+from .appearance import SHEAR as SHEAR_COST
 
 if TYPE_CHECKING:
     from .quality import Quality
 
 LEVELS = ("good", "fair", "poor", "unusable")
+COSTS = (1.2, 2.0, 5.0)  # the largest `appearance.cost` of all levels but the last, by pictures of 46 models
 
-# The largest values of all levels but the last. They were chosen on pictures of 63 meshes, see docs/python/verdicts.md.
-UNEVEN = (3.16, 6.32, 31.6)  # size range: the root of 10, 40 and 1000 in density
+# Where each word but the last ends. They are by area, as all quantities of a verdict.
+UNEVEN = (1.45, 1.87, 2.24)  # size range: the root of 2.1, 3.5 and 5 in density
 SHEARED = (1.15, 1.4, 2.5)  # angle distortion
-UNSEEN = 0.3  # angle distortion that evening may add unseen at evenness 1: it is spread out, and squares have one size
-LOST = (0.002, 0.01, 0.05)  # part of the area that is flipped or has collapsed
-SMALL_PART = 0.01  # part of the area of all parts: worse maps of less do not decide
-SAME_SIZE = 1.049  # largest over smallest side of squares of parts that is not seen: 10 % in area
-OVERLAPPING = (1e-6, 0.01, 0.2)  # part of an island that covers itself: less is rounding; it can be textured, not baked
-
-TURNED = {2: "half turns", 4: "quarter turns", 6: "sixth turns"}  # of tilings, by `Tiling.turns`
-LINED = {"free": "rows run along edges", "whole": "rows end at edges"}  # by `Tiling.lines`
 EVENNESS = ("even", "fairly even", "uneven", "very uneven")
 SHEAR = (None, "slightly sheared", "sheared", "badly sheared")
-LONG = 10.0  # square of the longest side over twice the area of a long thin triangle; 1.2 where it is equilateral
-MOSTLY = 0.5  # part of the area that is
-ADDED = 1.05  # angle distortion that a tiling's whole numbers add, from which on more tiles would show
-ISLANDS = "or unwrap it in islands along its hard edges"
-OVERLAP_ADVICE = "mark one more seam across the island"
+
+UNSEEN = 0.3  # angle distortion that evening may add unseen at evenness 1: it is spread out, and squares have one size
+LOST = 0.002  # part of the area that is flipped, has collapsed or has no map: less is not told
+IN_VIEW = 0.05  # length of seams, or of folds, over the root of the area: less is not told
+OVERLAPPING = 1e-6, 0.01, 0.2  # part of the map that islands cover twice: less is rounding, and the limits of levels
+USED = 0.4  # part of the image that islands cover: less wastes texels
+TURNED = {2: "half turns", 4: "quarter turns", 6: "sixth turns"}  # of tilings, by `Tiling.turns`
+LINED = {"free": "rows run along edges", "whole": "rows end at edges"}  # by `Tiling.lines`
+PURPOSES = {"verdict": "To tile", "bake": "To bake"}  # of the `Verdict`s in a report
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """level: one of `LEVELS`; sentence: what is seen of a texture; advice: what would help, "" where nothing need."""
+    """level: one of `LEVELS`; sentence: what is seen, or what a bake meets."""
 
     level: str
     sentence: str
-    advice: str
 
     @property
     def is_fit(self) -> bool:
-        """Whether a texture can be put on: the level is good or fair."""
+        """Whether the level is good or fair."""
         return self.rank <= LEVELS.index("fair")
 
     @property
@@ -56,111 +53,117 @@ class Verdict:
         """The place of the level in `LEVELS`."""
         return LEVELS.index(self.level)
 
-    @property
-    def offers_islands(self) -> bool:
-        """Whether islands along hard edges would help: the mesh is too coarse for a conformal map of the whole."""
-        return ISLANDS in self.advice
 
-    @property
-    def text(self) -> str:
-        """Sentence and advice."""
-        return self.sentence + (f": {self.advice}" if self.advice else "")
+@dataclass(frozen=True)
+class Seen:
+    """What is seen of a map, or of those of all parts of an object, besides its squares.
+
+    cost : of what follows, as in `appearance.cost`; over several parts the mean by area
+    seams, hidden : lengths over the root of the area of those in view, and of those that hard edges hide; None where
+        that is not known
+    poles, cones : how many tilings have, poles None without tilings; turns, lines : as in `Tiling`
+    folded : length of the edges at which the mesh is folded over itself, likewise
+    unmapped : part of the area that has no map
+    """
+
+    cost: float = 0.0
+    seams: float | None = None
+    hidden: float = 0.0
+    poles: int | None = None
+    turns: int = 1
+    cones: int = 0
+    lines: str = "none"
+    folded: float = 0.0
+    unmapped: float = 0.0
+
+    @classmethod
+    def joined(cls, parts: Sequence[Seen], areas: ArrayLike, unmapped: float) -> Seen:
+        """That of parts with these areas, (n,). Raises ValueError for other shapes and negative areas."""
+        weights = arrays.numbers(areas, "areas")
+        if weights.shape != (len(parts),) or not (weights >= 0).all():
+            raise ValueError(f"areas has the shape {weights.shape}; ({len(parts)},) numbers from 0 on are needed")
+        weights = weights / weights.sum() if weights.any() else np.full(len(parts), 1 / len(parts))
+        lists = {field.name: [getattr(part, field.name) for part in parts] for field in fields(cls)}
+        poles, seams = ([value for value in lists[name] if value is not None] for name in ("poles", "seams"))
+        return cls(
+            float(weights @ lists["cost"]),
+            float(weights @ [value or 0.0 for value in lists["seams"]]) if seams else None,
+            float(weights @ lists["hidden"]),
+            sum(poles) if poles else None,
+            max(lists["turns"]),
+            sum(lists["cones"]),
+            next((lines for lines in lists["lines"] if lines in LINED), "none"),
+            float(weights @ lists["folded"]),
+            unmapped,
+        )
 
 
-def verdict(
-    quality: Quality,
-    poles: int | None = None,
-    added_distortion: float = 1.0,
-    *,
-    turns: int = 1,
-    cones: int = 0,
-    lines: str = "none",
-) -> Verdict:
-    """The `Verdict` on a map with this `Quality`.
+def verdict(quality: Quality, seen: Seen = Seen()) -> Verdict:
+    """The `Verdict` on a map with this `Quality` as a texture that tiles shows it.
 
-    The worst counts: the size range, how far squares are sheared, which part of the surface is flipped or
-    has collapsed, and which part of an island covers itself. `UNEVEN`, `SHEARED`, `LOST`, `OVERLAPPING` are the limits.
-    Of the shear that evening added, what is not seen does not count.
+    The level is that of its cost to the eye, see `COSTS`, whatever covers what: overlaps are told by `baking`. The
+    shear that evening added unseen does not count. A mesh that is folded over itself is not good. `UNEVEN` and
+    `SHEARED` are the limits of words.
 
-    poles, added_distortion : of a seamless tiling, how many it has, and `Tiling.added_distortion`; None for other maps
-    turns, cones, lines : of a tiling that turns, `Tiling.turns`, how many cones it has, and `Tiling.lines`
-
-    Raises ValueError for an added distortion that is no number.
-    Source: ours; the limits were chosen on pictures of 63 meshes, docs/python/verdicts.md.
+    Raises AttributeError for what is no `Quality`.
+    Source: ours; the limits were chosen on pictures of 46 models, docs/python/verdicts.md.
 
     Examples
     --------
     >>> surface = holomorph.Surface.read("examples/pretzel.obj")
     >>> structure = holomorph.conformal_structure(surface)
     >>> quality = structure.quality(structure.uv(structure.balanced_coefficients()))
-    >>> print(holomorph.verdict(quality).text)
-    Even
+    >>> print(holomorph.verdict(quality).sentence)
+    Uneven (squares of 1 to 2.1)
     """
     if not quality.area.any():
-        return Verdict("unusable", "No texture is visible: the map has no area", "unwrap it again")
-    ranks = [
-        _rank(quality.size_range, UNEVEN),
-        _rank(quality.mean_angle - quality.unseen_angle, SHEARED),
-        _rank(quality.lost_part, LOST),
-        _rank(quality.overlapping_part or 0.0, OVERLAPPING),
+        return Verdict("unusable", "No texture is visible: the map has no area")
+    shear, blank = quality.mean_angle - quality.unseen_angle, quality.lost_part - quality.flipped_part + seen.unmapped
+    squares = cost(quality) - of_overlaps(quality) - SHEAR_COST * quality.unseen_angle
+    rank = max(_rank(squares + seen.cost + FLIPPED * blank, COSTS), int(seen.folded > IN_VIEW))
+    uneven = _rank(quality.size_range, UNEVEN)
+    squares_of = f" (squares of 1 to {_factor(quality.size_range)})" if uneven > 1 else ""
+    losses = {"flipped or collapsed": quality.lost_part, "without a map": seen.unmapped}
+    words = [
+        EVENNESS[uneven] + squares_of,
+        _seams(seen),
+        SHEAR[_rank(shear, SHEARED)],
+        *(f"{_percent(part)} {name}" for name, part in losses.items() if part > LOST),
+        special(seen.poles, seen.turns, seen.cones, seen.lines),
+        "the mesh is folded over itself" if seen.folded > IN_VIEW else None,
     ]
-    worst = max(ranks)
-    against_shear = _against_shear(quality, ratio(added_distortion, "added_distortion"), worst, turns)
-    is_island = quality.overlapping_part is not None
-    advice = (_against_unevenness(poles, is_island, turns), against_shear, _against_losses(quality), OVERLAP_ADVICE)
-    wanted = [text for text, rank in zip(advice, ranks) if rank == worst > 0]
-    more_exact = [text for text in wanted if not any(other.startswith(f"{text} ") for other in wanted)]
-    decisive = [text for text in more_exact if ISLANDS in text]  # nothing else helps a mesh that is so coarse
-    sentence = _sentence(quality, special(poles, turns, cones, lines), ranks)
-    return Verdict(LEVELS[worst], sentence, "; ".join(decisive or more_exact))
+    sentence = ", ".join(filter(None, words))
+    return Verdict(LEVELS[rank], sentence[0].upper() + sentence[1:])
 
 
-def overall(
-    verdicts: Sequence[Verdict], areas: ArrayLike | None = None, *, sizes: float = 1.0, unmapped: float = 0.0
-) -> Verdict:
-    """The `Verdict` on a mesh: that of its worst part, the first of several, and how many parts are on its level.
+def baking(overlapping: float, is_tiled: bool, used: float) -> Verdict:
+    """The `Verdict` on a map as one into which textures are baked.
 
-    areas : (n,) of the parts, equal by default. Worse parts that have less than `SMALL_PART` of the area together are
-        named, and do not decide
-    sizes : how many times as long squares of one part are as those of another at most; from `SAME_SIZE` on no texture
-        fits all parts
-    unmapped : part of the faces that has no map, to which the limits `LOST` apply
-
-    Raises ValueError for other shapes, for negative areas, and for numbers that are none.
-    Source: ours; the limits were chosen on pictures of 63 meshes, docs/python/verdicts.md.
-
-    Examples
-    --------
-    >>> good, poor = holomorph.Verdict("good", "Even", ""), holomorph.Verdict("poor", "Uneven", "add poles")
-    >>> print(holomorph.overall([good, poor], [99.5, 0.5]).sentence)
-    Even; 1 small part is poor
+    overlapping : part of it that islands cover more than once; is_tiled : whether a tiling is among the maps;
+    used : part of the image that is covered
     """
-    areas = np.ones(len(verdicts)) if areas is None else arrays.numbers(areas, "areas")
-    if areas.shape != (len(verdicts),) or not (areas >= 0).all():
-        raise ValueError(f"areas has the shape {areas.shape}; ({len(verdicts)},) numbers from 0 on are needed")
-    sizes, unmapped = ratio(sizes, "sizes"), ratio(unmapped, "unmapped")
-    ranks = np.array([each.rank for each in verdicts])
-    rank = next(r for r in np.unique(ranks)[::-1] if areas[ranks >= r].sum() >= SMALL_PART * areas.sum())
-    first = verdicts[int(np.argmax(ranks == rank))]
-    found = [(rank, _on_parts(first, ranks, rank), first.advice)]
-    if unmapped:
-        found.append((_rank(unmapped, LOST), f"{_percent(unmapped)} of the faces have no map", ""))
-    if sizes > SAME_SIZE:
-        told = f"squares differ in size between parts by a factor of {_factor(sizes)}"
-        found.append((LEVELS.index("poor"), told, "ask for more tiles"))
-    if ranks.max() > rank:
-        count = int(np.count_nonzero(ranks > rank))
-        found.append((rank, f"{count} small part{'s are' if count > 1 else ' is'} {LEVELS[ranks.max()]}", ""))
-    levels, words, advice = zip(*found)
-    return Verdict(LEVELS[max(levels)], "; ".join(words), "; ".join(filter(None, advice)))
+    if is_tiled:
+        return Verdict("fair", "Not as it lies: whole tiles cover each other")
+    rank, space = _rank(overlapping, OVERLAPPING), f"{_percent(used)} of the image is used"
+    overlaps = f"{_percent(overlapping)} of it overlaps" if rank else "Nothing overlaps"
+    return Verdict(LEVELS[max(rank, int(used < USED))], f"{overlaps}, {space}")
 
 
-def _on_parts(chosen, ranks, rank):
-    """The sentence of a verdict, and on how many parts of several it is so."""
-    count = int(np.count_nonzero(ranks == rank))
-    if count == np.count_nonzero(ranks <= rank):
-        return chosen.sentence
-    return f"{count} of {len(ranks)} parts {'is' if count == 1 else 'are'} {LEVELS[rank]}: {_lower(chosen.sentence)}"
+def told(report: Mapping[str, Any]) -> list[str]:
+    """The sentences of a report on a mesh: what is seen of a texture that tiles, and what a bake meets."""
+    found = {purpose: report[name]["sentence"] for name, purpose in PURPOSES.items() if report.get(name)}
+    return [f"{purpose}: {sentence[0].lower()}{sentence[1:]}" for purpose, sentence in found.items()]
+
+
+def special(poles: int | None, turns: int = 1, cones: int = 0, lines: str = "none") -> str | None:
+    """The poles of tilings, or their turns, cones and lines, in words; None without tilings."""
+    if poles is None:
+        return None
+    named = counted(poles, "pole") if poles else "no poles"
+    if turns == 1:
+        return named
+    words = TURNED[turns], counted(cones, "cone") if cones else "no cones", LINED.get(lines), poles and named
+    return ", ".join(filter(None, words))
 
 
 def _rank(value, limits):
@@ -168,31 +171,15 @@ def _rank(value, limits):
     return next((rank for rank, limit in enumerate(limits) if value <= limit), len(limits))
 
 
-def special(poles: int | None, turns: int = 1, cones: int = 0, lines: str = "none") -> str | None:
-    """The poles of a tiling, or its turns, cones and lines, in words; None for other maps."""
-    if poles is None:
+def _seams(seen):
+    """Whether seams are in view, where that is known."""
+    if seen.seams is None:
         return None
-    if turns != 1:
-        words = (TURNED[turns], counted(cones, "cone") if cones else "no cones", LINED.get(lines))
-        return ", ".join(filter(None, words))
-    return counted(poles, "pole") if poles else "no poles"
-
-
-def _sentence(quality, named, ranks):
-    uneven, sheared, lost, overlapping = ranks
-    words = [EVENNESS[uneven], named and "seamless", SHEAR[sheared]]
-    if uneven > 1:
-        words[0] += f" (squares of 1 to {_factor(quality.size_range)})"
-    if lost:
-        words.append(f"{_percent(quality.lost_part)} flipped or collapsed")
-    if overlapping:
-        words.append(f"{_percent(quality.overlapping_part)} of the island overlaps itself")
-    sentence = ", ".join(word for word in (*words, named) if word)
-    return sentence[0].upper() + sentence[1:]
-
-
-def _lower(sentence):
-    return sentence[0].lower() + sentence[1:]
+    if seen.seams > IN_VIEW:
+        return f"seams in view ({_factor(seen.seams)} of its size)"
+    if seen.hidden > IN_VIEW:
+        return "seams at hard edges"
+    return "no seams" if seen.poles is None else "seamless"
 
 
 def _factor(value):
@@ -202,28 +189,3 @@ def _factor(value):
 
 def _percent(part):
     return f"{100 * part:.2g} %"
-
-
-def _against_unevenness(poles, is_island, turns):
-    if is_island:
-        return "mark a seam up to where it is coarse, or set Most Stretch"
-    if turns != 1:
-        return "ask for more tiles"
-    return "add poles where it is coarse" if poles else "make a seamless tiling, with poles where it is coarse"
-
-
-def _against_shear(quality, added_distortion, rank, turns):
-    is_slight = rank <= LEVELS.index("fair")
-    if added_distortion > ADDED or (turns != 1 and is_slight):  # cones lie on few centres of large tiles
-        return "ask for more tiles"
-    if is_slight:
-        return "subdivide the mesh"
-    if quality.long_part > MOSTLY:
-        return f"remesh its long thin faces, {ISLANDS}"
-    return f"subdivide the mesh, which is too coarse for a conformal map, {ISLANDS}"
-
-
-def _against_losses(quality):
-    if np.count_nonzero(quality.flipped) > np.count_nonzero(quality.collapsed):
-        return "subdivide the mesh where faces are flipped"
-    return "subdivide the mesh where faces have collapsed"

@@ -16,8 +16,9 @@ from ..core.array_types import Complexes, Integers, Reals
 from ..core.value import Value, counted, quoted
 from ..mesh.checks import own_vertices
 from ..mesh.edges import has_angle_on_one_boundary
+from ..quality.appearance import CONE, POLE
 from ..quality.quality import Quality
-from ..quality.verdicts import Verdict, special, verdict
+from ..quality.verdicts import Seen, Verdict, special, verdict
 
 LATTICES = {"square": (1, 1j), "brick": (1, 0.5 + 1j), "hex": (1, 0.5 + 0.5j * math.sqrt(3))}
 BOUNDARIES = ("automatic", "straight", "free")
@@ -108,8 +109,13 @@ class Tiling(Value):
     @property
     def verdict(self) -> Verdict:
         """The `Verdict` on the map."""
-        turned = {"turns": self.turns, "cones": len(self.cones), "lines": self.lines}
-        return verdict(self.quality, len(self.poles), self.added_distortion, **turned)
+        return verdict(self.quality, self.seen)
+
+    @property
+    def seen(self) -> Seen:
+        """What is seen of it besides its squares."""
+        poles, cones = len(self.poles), len(self.cones)
+        return Seen(POLE * poles + CONE * cones, 0.0, 0.0, poles, self.turns, cones, self.lines)
 
 
 @dataclass(frozen=True, repr=False)

@@ -15,7 +15,8 @@ from holomorph import (
     rectangle_map,
     triangle_map,
 )
-from holomorph.quality.verdicts import SHEARED, UNSEEN, verdict
+from holomorph.quality.appearance import SHEAR, cost
+from holomorph.quality.verdicts import COSTS, SHEARED, UNSEEN, verdict
 from measured import Measured
 from solved import surface_of
 
@@ -153,19 +154,19 @@ def test_the_verdict_forgives_what_evening_added_alone(name):
     assert before.unseen_angle == 0
     assert after.unseen_angle == pytest.approx(min(max(added, 0), 0.5 * UNSEEN))
     judged = Measured(size_range=after.size_range, mean_angle=after.mean_angle - after.unseen_angle)
-    judged.lost_part, judged.overlapping_part, judged.long_part = after.lost_part, after.overlapping_part, 0.0
-    judged.flipped, judged.collapsed = after.flipped, after.collapsed
-    assert mapped(name, 0.5).verdict.level == verdict(judged).level
+    judged.lost_part, judged.flipped_part = after.lost_part, after.flipped_part
+    assert after.verdict == verdict(judged)
 
 
-def test_evening_is_forgiven_one_level_of_shear():
-    """What would be fair is good if evening alone has sheared it; what would be poor is not."""
+def test_shear_that_evening_added_is_forgiven_in_words_and_level():
     own = structure("free")
     before = own.quality(own.uv())
-    for factor, level in ((0.95 * SHEARED[1], "good"), (1.05 * SHEARED[1], "fair")):
+    for factor, is_told in ((1 + 0.95 * UNSEEN, False), (SHEARED[0] + 1.05 * UNSEEN, True)):
         after = own.quality(own.uv() * [factor, 1.0])
-        assert after.verdict.level == ("fair" if factor < SHEARED[1] else "poor")
-        assert after.evened_from(before, 1.0).verdict.level == level
+        assert "sheared" in after.verdict.sentence
+        assert ("sheared" in after.evened_from(before, 1.0).verdict.sentence) == is_told
+    after = own.quality(own.uv() * [0.999 + (COSTS[1] - cost(before)) / SHEAR + UNSEEN, 1.0])
+    assert (after.verdict.level, after.evened_from(before, 1.0).verdict.level) == ("poor", "fair")
 
 
 def test_shear_that_was_there_is_not_forgiven():

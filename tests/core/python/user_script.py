@@ -26,7 +26,7 @@ def mapped(path: str) -> Reals:
         assert_type(uv, Reals)
         assert_type(structure.quality(uv), holomorph.Quality)
         assert_type(structure.quality(uv).mean_angle, float)
-        assert_type(structure.quality(uv).verdict.text, str)
+        assert_type(structure.quality(uv).verdict.sentence, str)
         assert_type(structure.tile(tiles=64), holomorph.Tiling)
         assert_type(structure.tile(poles=[3, 5]).uv, Reals)
         assert_type(structure.solver.residual, float)

@@ -11,7 +11,7 @@ from holomorph import InvalidMesh, Surface, automatic_map, automatic_maps, autom
 from holomorph.maps.report import part_report
 from holomorph.mesh.edges import edge_keys
 from holomorph.quality.appearance import CONE, cost
-from holomorph.quality.verdicts import special, verdict
+from holomorph.quality.verdicts import Seen, special, verdict
 from measured import Measured
 from solids import revolved
 from solved import surface_of
@@ -118,7 +118,7 @@ def test_turns_cones_and_lines_are_told():
     assert special(None) is None and special(0) == "no poles" and special(1) == "1 pole"
     assert special(0, 4, 0, "none") == "quarter turns, no cones"
     told = "Even, seamless, half turns, 1 cone, rows run along edges"
-    assert verdict(Measured(), 0, turns=2, cones=1, lines="free").text == told
+    assert verdict(Measured(), Seen(poles=0, seams=0.0, turns=2, cones=1, lines="free")).sentence == told
     cube = automatic_map(box(), main="seamless", turns=4)
     words = "quarter turns, 8 cones, rows end at edges"
     assert words in cube.verdict.sentence and words in repr(cube.tiling)
