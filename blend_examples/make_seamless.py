@@ -121,7 +121,7 @@ def make_all(files, folder, make):
 def make(name):
     obj = opened(name)
     texture, tiles = FILES[name]
-    bpy.ops.uv.holomorphic_tile(texture=texture, tiles=tiles)
+    bpy.ops.uv.holomorphic_tile(texture=texture, tiles=tiles, turns="NONE")
     share_images()
     save(obj, FOLDER / f"{name}.blend")
     return [obj]

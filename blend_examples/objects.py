@@ -31,7 +31,7 @@ def torus():
 
 
 def mug():
-    """A mug of quads: a turned body, two faces of its wall drawn out and joined to a handle."""
+    """A mug of quads: a turned body, a face of its wall drawn out around an arc to another one, as a handle."""
     bm = bmesh.new()
     profile = [(0.55, 0.0), (0.88, 0.02), (0.95, 0.25), (0.96, 0.62), (0.96, 0.98), (0.96, 1.34)]
     profile += [(0.96, 1.7), (0.96, 1.92), (0.91, 1.98), (0.85, 1.92), (0.85, 1.2), (0.84, 0.3), (0.75, 0.14)]
@@ -45,18 +45,20 @@ def mug():
         edges = ring_edges(bm, ring)
         bmesh.ops.grid_fill(bm, edges=edges[:quarter] + edges[2 * quarter : 3 * quarter])
     bmesh.ops.recalc_face_normals(bm, faces=bm.faces)
-    wall = [face_between(bm, rings[k], rings[k + 1]) for k in (6, 2)]
-    path = [[(0.25, 0.02), (0.5, -0.06), (0.66, -0.22)], [(0.22, 0.0), (0.46, 0.1), (0.64, 0.26)]]
-    tips = []
-    for face, steps in zip(wall, path):
-        origin = face.calc_center_median()
-        outward = Vector((origin.x, origin.y, 0)).normalized()
-        for out, up in steps:
-            face = bmesh.ops.extrude_discrete_faces(bm, faces=[face])["faces"][0]
-            target = origin + out * outward + Vector((0, 0, up))
-            bmesh.ops.translate(bm, verts=face.verts, vec=target - face.calc_center_median())
-            bmesh.ops.scale(bm, verts=face.verts, vec=(0.96, 0.96, 0.92), space=Matrix.Translation(-target))
-        tips.append(face)
+    face, end = (face_between(bm, rings[k], rings[k + 1]) for k in (6, 2))
+    start, stop, steps = face.calc_center_median(), end.calc_center_median(), 6
+    middle, up = (start + stop) / 2, (start - stop) / 2
+    outward = Vector((start.x, start.y, 0)).normalized()
+    for step in range(1, steps):
+        angle = math.pi * step / steps
+        face = bmesh.ops.extrude_discrete_faces(bm, faces=[face])["faces"][0]
+        target = middle + 0.62 * math.sin(angle) * outward + math.cos(angle) * up
+        bmesh.ops.translate(bm, verts=face.verts, vec=target - face.calc_center_median())
+        turn = Matrix.Rotation(math.pi / steps, 3, up.cross(outward))
+        bmesh.ops.rotate(bm, verts=face.verts, cent=target, matrix=turn)
+        size = 0.85 if step == 1 else 1.0
+        bmesh.ops.scale(bm, verts=face.verts, vec=(size, size, size), space=Matrix.Translation(-target))
+    tips = [face, end]
     edges = [edge for face in tips for edge in face.edges]
     bmesh.ops.delete(bm, geom=tips, context="FACES_ONLY")
     bmesh.ops.bridge_loops(bm, edges=edges)
@@ -152,6 +154,7 @@ def knot():
         place = (math.sin(t) + 2 * math.sin(2 * t), math.cos(t) - 2 * math.cos(2 * t), -math.sin(3 * t))
         points.append((*(0.5 * x for x in place), radius))
     curve = bevel_curve("Knot", points, radius=0.24, cyclic=True, resolution=28, around=6)
+    curve.data.twist_mode = "Z_UP"  # the least twist leaves faces that cross where the strand closes
     obj = convert_to_mesh(curve)
     obj.rotation_euler = Euler((math.radians(60), 0, math.radians(20)))
     return [obj]

@@ -5,6 +5,7 @@ import itertools
 import bpy
 import numpy as np
 import pytest
+from loaded_addon import module
 from repository import ROOT
 from scenes import (
     edge_mismatch,
@@ -44,6 +45,17 @@ FINE = 1.12
 
 def test_every_file_is_listed():
     assert {path.stem for path in (ROOT / "blend_examples").glob("*.blend")} == set(EXAMPLES)
+
+
+@pytest.mark.parametrize("name", [*EXAMPLES, "seamless/mug"])
+def test_no_example_is_folded_over_itself(name):
+    """No edge is nearly a fold, and no face of a part goes through another one: such a mesh has no good map."""
+    open_example(name)
+    library = module("native").load()
+    for obj in bpy.context.view_layer.objects:
+        for part in module("scene.targets").read(obj).surface(strict=False).components:
+            assert np.degrees(library.mesh.hard_edges.bends(part).max()) < 150
+            assert not len(library._native.crossings(part.vertices, part.triangles, threads=0))
 
 
 def face_sizes(mesh):

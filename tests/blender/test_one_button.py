@@ -219,7 +219,7 @@ def test_refused_parts_are_told_and_keep_their_map(monkeypatch):
     assert tilings(obj) == [None] and fills_the_square(uv(obj))
     outcome = written(obj, main="SEAMLESS")
     assert outcome.problems[-1] == "Torus: not seamless: too few tiles" and "seams in view" in outcome.problems[0]
-    assert written(obj).problems == []
+    assert not any("not seamless" in told for told in written(obj).problems)
 
 
 def test_the_redo_panel_makes_nothing_again(monkeypatch):
