@@ -209,7 +209,7 @@ MUTATIONS = (
         ("unseen", "UNSEEN = 0.3", "UNSEEN = 0.6", EVENED),
         ("by-area", 'weights @ lists["cost"]', 'np.mean(lists["cost"])', VERDICT),
         ("told-overlaps", "cost(quality) - of_overlaps(quality)", "cost(quality)", VERDICT),
-        ("folded", "int(seen.folded > IN_VIEW)", "int(seen.folded > 9)", VERDICT),
+        ("folded", "if seen.folded > FOLDED", "if seen.folded > 9", VERDICT),
     )
     | of(
         PACKAGE + "mesh/folds.py",

@@ -233,9 +233,9 @@ def whole(
     seen = Seen.joined([made.seen for made in maps], areas, blank / (areas.sum() + blank or 1.0))
     shown = sizes[(areas >= SMALL_PART * areas.sum()) & (sizes > 0)]
     spread = math.sqrt(shown.max() / shown.min()) if len(shown) else 1.0
-    is_tiled = any(made.is_tiled for made in maps)
-    used = 0.0 if is_tiled else square(maps, arrangement).used
-    bake = baking(quality.overlapping_part or 0.0, is_tiled, used)
+    tiled = float(areas[[made.is_tiled for made in maps]].sum() / (areas.sum() or 1.0))
+    used = 0.0 if tiled else square(maps, arrangement).used
+    bake = baking(quality.overlapping_part or 0.0, tiled, used)
     text = "; ".join(_words(maps, spread, left_out, repairs))
     figures = quality.mean_angle, quality.size_range, spread, sum(part["faces"] for part in left_out), seen.seams
     return Whole(text, *figures, verdict(quality, seen), bake)

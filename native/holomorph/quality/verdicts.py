@@ -28,7 +28,7 @@ SHEAR = (None, "slightly sheared", "sheared", "badly sheared")
 
 UNSEEN = 0.3  # angle distortion that evening may add unseen at evenness 1: it is spread out, and squares have one size
 LOST = 0.002  # part of the area that is flipped, has collapsed or has no map: less is not told
-IN_VIEW = 0.05  # length of seams, or of folds, over the root of the area: less is not told
+IN_VIEW, FOLDED = 0.05, 0.1  # lengths of seams and of folds over the root of the area: less is not told
 OVERLAPPING = 1e-6, 0.01, 0.2  # part of the map that islands cover twice: less is rounding, and the limits of levels
 USED = 0.4  # part of the image that islands cover: less wastes texels
 TURNED = {2: "half turns", 4: "quarter turns", 6: "sixth turns"}  # of tilings, by `Tiling.turns`
@@ -102,8 +102,8 @@ def verdict(quality: Quality, seen: Seen = Seen()) -> Verdict:
     """The `Verdict` on a map with this `Quality` as a texture that tiles shows it.
 
     The level is that of its cost to the eye, see `COSTS`, whatever covers what: overlaps are told by `baking`. The
-    shear that evening added unseen does not count. A mesh that is folded over itself is not good. `UNEVEN` and
-    `SHEARED` are the limits of words.
+    shear that evening added unseen does not count. `UNEVEN` and `SHEARED` are the
+    limits of words.
 
     Raises AttributeError for what is no `Quality`.
     Source: ours; the limits were chosen on pictures of 46 models, docs/python/verdicts.md.
@@ -120,7 +120,7 @@ def verdict(quality: Quality, seen: Seen = Seen()) -> Verdict:
         return Verdict("unusable", "No texture is visible: the map has no area")
     shear, blank = quality.mean_angle - quality.unseen_angle, quality.lost_part - quality.flipped_part + seen.unmapped
     squares = cost(quality) - of_overlaps(quality) - SHEAR_COST * quality.unseen_angle
-    rank = max(_rank(squares + seen.cost + FLIPPED * blank, COSTS), int(seen.folded > IN_VIEW))
+    rank = _rank(squares + seen.cost + FLIPPED * blank, COSTS)
     uneven = _rank(quality.size_range, UNEVEN)
     squares_of = f" (squares of 1 to {_factor(quality.size_range)})" if uneven > 1 else ""
     losses = {"flipped or collapsed": quality.lost_part, "without a map": seen.unmapped}
@@ -130,20 +130,21 @@ def verdict(quality: Quality, seen: Seen = Seen()) -> Verdict:
         SHEAR[_rank(shear, SHEARED)],
         *(f"{_percent(part)} {name}" for name, part in losses.items() if part > LOST),
         special(seen.poles, seen.turns, seen.cones, seen.lines),
-        "the mesh is folded over itself" if seen.folded > IN_VIEW else None,
+        "the mesh is folded over itself" if seen.folded > FOLDED else None,
     ]
     sentence = ", ".join(filter(None, words))
     return Verdict(LEVELS[rank], sentence[0].upper() + sentence[1:])
 
 
-def baking(overlapping: float, is_tiled: bool, used: float) -> Verdict:
+def baking(overlapping: float, tiled: float, used: float) -> Verdict:
     """The `Verdict` on a map as one into which textures are baked.
 
-    overlapping : part of it that islands cover more than once; is_tiled : whether a tiling is among the maps;
-    used : part of the image that is covered
+    overlapping : part of it that islands cover more than once; tiled : part of the area that has a tiling; used : part
+        of the image that is covered
     """
-    if is_tiled:
-        return Verdict("fair", "Not as it lies: whole tiles cover each other")
+    if tiled > 0:
+        where = "" if tiled > 1 - LOST else f" on {_percent(tiled)} of the area"
+        return Verdict("fair", f"Not as it lies: whole tiles cover each other{where}")
     rank, space = _rank(overlapping, OVERLAPPING), f"{_percent(used)} of the image is used"
     overlaps = f"{_percent(overlapping)} of it overlaps" if rank else "Nothing overlaps"
     return Verdict(LEVELS[max(rank, int(used < USED))], f"{overlaps}, {space}")

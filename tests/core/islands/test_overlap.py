@@ -73,7 +73,7 @@ def test_a_strip_that_winds_more_than_once_overlaps_itself(turns, overlaps):
     quality = structure.quality(structure.uv())
     assert not quality.flipped.any()
     if overlaps:
-        assert 0.3 < quality.overlapping_part < 1 and not baking(quality.overlapping_part, False, 1.0).is_fit
+        assert 0.3 < quality.overlapping_part < 1 and not baking(quality.overlapping_part, 0.0, 1.0).is_fit
     else:
         assert quality.overlapping_part == 0 and quality.verdict.level == "good"
 
