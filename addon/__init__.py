@@ -16,6 +16,7 @@ from .operators import (
     lod,
     mapping,
     relief,
+    symmetric,
     texel_operators,
     tools,
 )
@@ -40,6 +41,7 @@ MODULES = (
     lod,
     geometry,
     relief,
+    symmetric,
     texel_operators,
     compare,
     bake,

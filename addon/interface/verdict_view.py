@@ -6,10 +6,12 @@ import math
 from typing import NamedTuple
 
 from ..native import holomorph
-from ..results import stored
+from ..results import stored, symmetric
 from . import lines
 
 REPAIR = "mesh.holomorphic_repair"
+SYMMETRIC = "uv.holomorphic_make_symmetric"
+SHOWN_TURNS = "This texture shows its turns: seams are seen where the map turns"
 EDITED = "Before the last edit:"
 ICONS = {"good": "CHECKMARK", "fair": "NONE", "poor": "ERROR", "unusable": "ERROR"}
 
@@ -31,6 +33,9 @@ def draw(layout, context, text, tile_operator, is_edited=False):
         lines.draw(box, context, EDITED, "INFO")
     for level, sentence in zip(read_of.levels, read_of.told):
         lines.draw(box, context, sentence, "NONE" if is_edited else ICONS[level])
+    if symmetric.shown_turns(text):
+        lines.draw(box, context, SHOWN_TURNS, "INFO")
+        box.operator(SYMMETRIC)
     if read_of.places:
         lines.draw(box, context, read_of.places)
         box.operator(tile_operator, text="Add Poles There").poles = "COARSE"

@@ -25,6 +25,7 @@ OWN_ACROSS = 8  # images of the user's that span an object where no number is as
 REPLACED = "holomorph_replaced_materials"  # custom property: slot index -> material linked to the object before
 BEFORE_BAKE = "holomorph_before_bake"  # custom property: slot index -> material that a baked one took the place of
 EMPTY = 0  # instead of a material: the slot was linked to the object, and empty
+AVERAGED = " averaged"  # end of what those show that are averaged over turns
 SHOWS = "holomorph_shows"  # custom property of those that show a texture of the user's: which one, and of which map
 BAKED = "holomorph_baked_of"  # and those of them that show baked images: name of the object
 
@@ -99,25 +100,33 @@ def showing(map_name, is_attribute, look):
 def _showing_own(map_name, is_attribute, look):
     own, block = look.own, look.own.block
     shows = f"{own.kind} {own.name} {map_name} {is_attribute} {look.is_tiling}{' turned' * look.is_turned}"
+    shows += AVERAGED * (own.averaged != 1)
     if own.kind == MATERIAL:
         material = block.copy()
         material.use_fake_user = False
         user_texture.redirect(material.node_tree, map_name, is_attribute, look.repeats, own)
     else:
         ours = (m for m in bpy.data.materials if m.get(SHOWS) == shows and m.library is None and m.node_tree)
-        material = next(ours, None) or bpy.data.materials.new("")
+        material = own.averaged == 1 and next(ours, None) or bpy.data.materials.new("")
         if OURS not in material:
             user_texture.build_image(material, map_name, is_attribute, look.repeats, own)
         user_texture.adjust(material, look.repeats, own)
     if OURS not in material:
-        material.name = f"{map_name} {own.name}"
+        material.name = _free_name(f"{map_name} {own.name}")
         material[OURS], material[SHOWS] = True, shows
     return material
 
 
+def _free_name(wanted):
+    """Blender would give another material's name away."""
+    names = (wanted, *(f"{wanted}.{number:03}" for number in range(1, len(bpy.data.materials) + 1)))
+    return next(name for name in names if bpy.data.materials.get((name, None)) is None)
+
+
 def unused_copies():
-    """Copies of materials of the user's, and the groups of their nodes, that no object shows any more."""
-    copies = {m for m in bpy.data.materials if m.get(SHOWS, "").startswith(MATERIAL) and m.library is None}
+    """Copies of materials of the user's, and those with groups of nodes, that no object shows any more; and these."""
+    shown = ((m, m.get(SHOWS, "")) for m in bpy.data.materials if m.library is None)
+    copies = {m for m, shows in shown if shows.startswith(MATERIAL) or shows.endswith(AVERAGED)}
     for obj in bpy.data.objects if copies else ():
         copies -= {slot.material for slot in obj.material_slots}
         copies -= {*getattr(obj.data, "materials", ()), *dict(obj.get(BEFORE_BAKE, {})).values()}

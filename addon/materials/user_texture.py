@@ -11,6 +11,7 @@ import bpy
 from .. import compatibility, native
 from ..native import holomorph
 from ..scene import image_io
+from . import averages
 from .nodes import CENTRE_NODE, HEIGHT_NODE, IMAGE_NODE, OURS, REPEATS_NODE, Tree
 
 IMAGE, MATERIAL = "IMAGE", "MATERIAL"  # kinds
@@ -32,11 +33,15 @@ class Own:
     text: str = ""  # what was found, a sentence
     turns: int = 1  # 2, 4 or 6: it looks the same after this part of a full turn
     centre: tuple = (0.0, 0.0)  # about which, in images
+    averaged: int = 1  # 2 or 4: only since it is averaged over these turns
+    alike: float = 0.0  # correlation of an image that is averaged with itself after the turn
 
     def on_turned(self, turns):
         """As it lies on a map whose sides turn by this part of a full turn: its centre at the corners of tiles."""
         height = math.sqrt(3) if turns == 6 else self.height
-        return replace(self, height=height, centre=self.centre if turns != 1 else (0.0, 0.0))
+        if turns == 1:
+            return replace(self, height=height, centre=(0.0, 0.0), averaged=1)
+        return replace(self, height=height)
 
     @property
     def block(self):
@@ -57,6 +62,21 @@ def chosen(properties):
         raise ValueError(f"There is no {kind.lower()} {properties.source!r}")
     lattice = getattr(properties, "lattice", AUTOMATIC)
     return _of_image(found, found.block, lattice) if kind == IMAGE else _of_material(found, found.block, lattice)
+
+
+def symmetric(own, turns):
+    """The `Own` that is averaged over the turns of a map, about the centre where it is most like itself. @throws
+    ValueError it cannot be"""
+    if own.averaged == turns or own.turns % turns == 0:
+        return own
+    images = [own.block] if own.kind == IMAGE else images_of(own.block.node_tree)
+    if turns not in (2, 4) or own.height != 1:
+        what = "squares: set Turns to Half or Quarter" if turns not in (2, 4) else "square images"
+        raise ValueError(f"{own.name}: Make Symmetric is for {what}")
+    if not images or (own.kind == MATERIAL and not only_images_read(own.block.node_tree)):
+        raise ValueError(f"{own.name}: Make Symmetric is for materials whose UVs go to images alone")
+    alike, centre = _most_like(_Pixels(image_io.read_pixels(images[0])), turns)
+    return replace(own, turns=turns, centre=centre, averaged=turns, alike=max(alike, 0.0))
 
 
 def _blocks(kind):
@@ -175,6 +195,17 @@ def _symmetries(pixels):
     return found
 
 
+@functools.lru_cache(maxsize=16)
+def _most_like_of(key, turns):
+    return native.module("tiling.image_turns").most_like(key.values, turns)
+
+
+def _most_like(pixels, turns):
+    found = _most_like_of(pixels, turns)
+    pixels.values = None
+    return found
+
+
 def _as_tuple(matrix):
     return tuple(map(tuple, matrix.tolist()))
 
@@ -190,9 +221,12 @@ def build_image(material, map_name, is_attribute, repeats, own):
     """The image, laid on by the map."""
     tree = Tree.of(material)
     picture = tree.node("ShaderNodeTexImage", -360, 200, IMAGE_NODE, image=own.block)
-    tree.link(_places(tree, tree.map_vector(map_name, is_attribute), repeats, own), picture.inputs["Vector"])
+    places = _places(tree, tree.map_vector(map_name, is_attribute), repeats, own)
+    tree.link(places, picture.inputs["Vector"])
     tree.link(picture.outputs[0], tree.shader(ROUGHNESS).inputs["Base Color"])
     tree.show_in_solid_view(picture)
+    if own.averaged != 1:
+        averages.put(tree.tree, own.averaged, own.centre, own.alike)
 
 
 def adjust(material, repeats, own):
@@ -226,6 +260,8 @@ def redirect(tree, map_name, is_attribute, repeats, own):
         if places is None:
             places = _places_in(tree, map_name, is_attribute, repeats, own)
         tree.links.new(places, socket)
+    if places is not None and own.averaged != 1:
+        averages.put(tree, own.averaged, own.centre, own.alike)
 
 
 def groups(tree):

@@ -10,7 +10,7 @@ from ..maps import mapped
 from ..maps.mapped import TILING, MapOptions, TileOptions
 from ..materials import material, textures
 from ..materials.user_texture import AUTOMATIC, IMAGE, MATERIAL
-from ..results import report, stored, write
+from ..results import report, stored, symmetric, write
 from ..results.write import WriteOptions
 from ..scene import gathering, mesh_io, targets
 from ..solving import jobs
@@ -39,6 +39,7 @@ class Run:
 
     def __init__(self, properties, found, own=None):
         self.tasks, self._found, self._is_equal = targets.tasks(found), found, properties.equal
+        own = own and symmetric.as_before(own, self.objects)
         options = _tile_options if properties.is_tiling else _map_options
         self._options = [options(properties, target, own) for target in found if not target.refused]
         self._write_options = _write_options(properties, own)

@@ -129,8 +129,8 @@ def is_attribute(mesh, name, domain, kind):
 
 
 def read_shown(obj, linear, own):
-    """(`Polygons`, (n, 2) vertices of the seams, those of sharp edges, whether the faces are those of `own`) of an object
-    with its modifiers as the viewport shows them."""
+    """(`Polygons`, (n, 2) vertices of the seams, those of edges marked sharp, whether the faces are those of `own`) of
+    an object with its modifiers as the viewport shows them."""
     shown = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = shown.to_mesh()
     try:

@@ -8,7 +8,7 @@ from picked_faces import pick_faces
 from scenes import everything, mesh_io, mesh_object, pick, select, sphere_arrays, stored_report, torus, uv
 
 PAINTING = ("SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT", "PARTICLE_EDIT")
-compatibility = module("compatibility")
+compatibility, image_io = module("compatibility"), module("scene.image_io")
 
 
 def enter(mode, obj):
@@ -30,11 +30,20 @@ def twice_mapped():
     return obj, other
 
 
+def symmetric():
+    """Once it is there: an image that does not look the same after the turns of its map."""
+    made = bpy.data.images.new("Half", 8, 8)
+    image_io.write_pixels(made, np.tile(np.linspace(0, 1, 8)[:, None, None], (1, 8, 4)))
+    bpy.ops.uv.holomorphic_tile(texture="IMAGE", source="Half", turns="QUARTER")
+    return bpy.ops.uv.holomorphic_make_symmetric()
+
+
 OPERATORS = {
     "maps": lambda: bpy.ops.uv.holomorphic_maps(),
     "islands": lambda: bpy.ops.uv.holomorphic_islands(hard_edges=0.3),
     "tile": lambda: bpy.ops.uv.holomorphic_tile(tiles=20),
     "heat": lambda: bpy.ops.uv.holomorphic_heat(),
+    "symmetric": lambda: symmetric(),
     "restore": lambda: bpy.ops.uv.holomorphic_restore_materials(),
     "remove": lambda: bpy.ops.uv.holomorphic_remove_maps(),
     "get": lambda: bpy.ops.uv.holomorphic_texels_get(),

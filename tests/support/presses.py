@@ -117,10 +117,23 @@ def with_poles():
     tile(pole_count=2, poles="COUNT")
 
 
+def with_a_turning_picture():
+    """That does not look the same after the turn."""
+    two_objects()
+    picture(np.linspace(0, 1, IMAGE))
+    bpy.ops.uv.holomorphic_tile(texture="IMAGE", source="Dots", turns="QUARTER")
+
+
 def with_a_picture():
     two_objects()
     tile(turns="NONE")  # the picture does not look the same after a turn
+    picture()
+
+
+def picture(red=1.0):
+    """With a square hole; red : (IMAGE,) in each column"""
     pixels = np.ones((IMAGE, IMAGE, 4), np.float32)
+    pixels[..., 0] = red
     pixels[: IMAGE // 2, : IMAGE // 2, :3] = 0
     image = bpy.data.images.new("Dots", IMAGE, IMAGE)
     module("scene.image_io").write_pixels(image, pixels)
@@ -165,6 +178,7 @@ PRESSES = {
     "bake": Press(after(lambda: tile(texture="BRICKS")), bake),
     "texels": Press(after(maps), texels),
     "heat": Press(after(maps, tile), bpy.ops.uv.holomorphic_heat),
+    "symmetric": Press(with_a_turning_picture, bpy.ops.uv.holomorphic_make_symmetric),
     "restore": Press(mapped_and_tiled, bpy.ops.uv.holomorphic_restore_materials),
     "remove": Press(mapped_and_tiled, bpy.ops.uv.holomorphic_remove_maps),
     "bad": Press(dirty, select_bad),

@@ -56,11 +56,7 @@ def image_turns(pixels: ArrayLike) -> ImageTurns:
     >>> print(holomorph.image_turns(x ^ y))
     <ImageTurns: Looks the same after quarter turns (100 %)>
     """
-    values = checked(pixels)
-    aspect = values.shape[0] / values.shape[1]
-    for _ in range(2):
-        values = reduced(values, min(len(values), SIDE)).swapaxes(0, 1)
-    values = values - values.mean(axis=(0, 1))
+    values, aspect = _turned_values(pixels)
     found = [_after(values, aspect, turns) for turns in (6, 4, 2) if _is_possible(aspect, turns)]
     taken = next((one for one in found if one[1] >= ALIKE), None)
     if taken is None:
@@ -68,6 +64,21 @@ def image_turns(pixels: ArrayLike) -> ImageTurns:
         text = f"Looks the same after no turn (the most like it are {TURNED[best[0]]}, {100 * max(best[1], 0.0):.0f} %)"
         return ImageTurns(1, best[1], (0.0, 0.0), text)
     return ImageTurns(*taken, f"Looks the same after {TURNED[taken[0]]} ({100 * taken[1]:.0f} %)")
+
+
+def most_like(pixels: ArrayLike, turns: int) -> tuple[float, tuple[float, float]]:
+    """The greatest correlation of an image with itself after a turn, and the centre of that, as in `ImageTurns`."""
+    _, score, centre = _after(*_turned_values(pixels), turns)
+    return score, centre
+
+
+def _turned_values(pixels):
+    """((h, w, c) values of mean 0 that are turned, height over width)."""
+    values = checked(pixels)
+    aspect = values.shape[0] / values.shape[1]
+    for _ in range(2):
+        values = reduced(values, min(len(values), SIDE)).swapaxes(0, 1)
+    return values - values.mean(axis=(0, 1)), aspect
 
 
 def _is_possible(aspect, turns):
