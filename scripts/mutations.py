@@ -252,7 +252,7 @@ MUTATIONS = (
     )
     | of(
         ROOM + "turns/lines.cpp",
-        ("lines-price", "kPrice = 5", "kPrice = 0.2", LINES),
+        ("lines-price", "kPrice = 12", "kPrice = 0.5", LINES),
         ("lines-walk", "turned[via[v]] += n;", "turned[via[v]] -= n;", LINES),
         ("lines-jagged", "kMostTurned = 3", "kMostTurned = 300", LINES),
     )

@@ -25,7 +25,7 @@ from .tilings import LATTICES, UPRIGHT, Rounding, Tiling, along
 TURNS = (1, 2, 4, 6)
 AUTO = "auto"  # those of the texture
 LATTICE = {2: "square", 4: "square", 6: "hex"}  # of which a turn by this part of a full one is a symmetry
-PRICE = 5e-4  # of a cone: what it is to take off the mean square of the logarithm of the scale
+PRICE = 2e-4  # of a cone: what it is to take off the mean square of the logarithm of the scale
 LINED_TURNS = (2, 4)  # lines cross at right angles
 MOST_LOST = 0.5  # part of the area: nothing is left to look at
 LINES = ("none", "free", "whole")

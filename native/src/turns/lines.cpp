@@ -18,7 +18,7 @@ constexpr double kHeld = 1e6;      // weight of a frame at a line: it does not g
 constexpr double kPull = 0.1;      // with which the field is pulled level
 // By which a cone's price is multiplied: pairs of cones also turn the field away from lines, which the cost does not
 // say.
-constexpr double kPrice = 5;
+constexpr double kPrice = 12;
 constexpr double kRegular = 1e-9;  // weight of a frame anywhere
 
 // A forest of vertices.
