@@ -212,6 +212,11 @@ MUTATIONS = (
         ("folded", "if seen.folded > FOLDED", "if seen.folded > 9", VERDICT),
     )
     | of(
+        PACKAGE + "mesh/facets.py",
+        ("strips", "NARROW = 2.5", "NARROW = 0.25", "tests/core/mesh/test_facets.py"),
+        ("curved-facets", "LEVEL = 0.97", "LEVEL = 0.0", LOOKS),
+    )
+    | of(
         PACKAGE + "mesh/folds.py",
         ("blades", "np.isin(sharp, ", "~np.isin(sharp, ", VERDICT),
     )

@@ -12,7 +12,8 @@ from ..core import arrays
 from ..core.array_types import Progress
 from ..core.progress import scaled
 from ..mesh.checks import check_threads, check_type, checked_evenness
-from ..mesh.hard_edges import bends, curvature
+from ..mesh.facets import breaks
+from ..mesh.hard_edges import curvature
 from ..mesh.surface import Surface
 from ..quality.appearance import HARD_SEAM, SEAM, cost
 from ..quality.quality import Quality
@@ -46,7 +47,7 @@ def island_map(
 ) -> Islands | None:
     """The `Islands` of a connected surface; None where a piece cannot be flattened, as where it is closed.
 
-    The surface is cut along edges between faces whose normals differ by more than 60 degrees, and by more than 40 and
+    The surface is cut along edges where it breaks off by more than 60 degrees, a bevel once, and by more than 40 and
     30 where pieces stretch or lie over themselves, whichever looks best; from tips to these edges, and until all pieces
     are disks but for small holes. Each is mapped with a free boundary and evened; where lengths change by more
     than a factor of 2.5, it is cut open to its cone points too if that looks better, and parted where it lies over
@@ -102,7 +103,7 @@ class IslandSearch:
     def __init__(self, surface, angles, evenness, threads):
         self.surface, (self._surface, self._order) = surface, in_one_orientation(surface)
         self._angles, self._evenness, self._threads = angles, evenness, threads
-        self._bends = bends(self._surface)
+        self._bends = breaks(self._surface)
         self.known: Islands | None = None  # the best that was found
         self._asked = -math.inf, -math.inf  # the bounds for which they were looked for
         self._hopeless, self._hard_seam, self._left, self._progress = math.inf, HARD_SEAM, math.inf, None

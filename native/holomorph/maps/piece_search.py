@@ -16,7 +16,8 @@ from ..core.value import counted
 from ..cutting.island_layout import Islands
 from ..cutting.island_map import HARD, SMOOTH
 from ..mesh.edges import boundary_edges, edge_keys
-from ..mesh.hard_edges import bends, seen
+from ..mesh.facets import breaks
+from ..mesh.hard_edges import seen
 from ..mesh.origin import edges_on_part
 from ..mesh.surface import Surface
 from ..quality.appearance import HARD_SEAM, TURN
@@ -95,7 +96,7 @@ class PieceSearch:
 
     def _divisions(self, progress) -> Iterator[_Division]:
         """By each angle that divides the part in another way."""
-        bent, known = bends(self._surface), None
+        bent, known = breaks(self._surface), None
         for degrees in (angle for angle in HARD if angle > SMOOTH):
             names = names_of_pieces(self._surface, bent > math.radians(degrees))
             if names.max() == names.min() or np.array_equal(names, known):
@@ -228,6 +229,6 @@ def _seams(surface, pieces):
 
 def _seen_lengths(surface, is_border):
     """(length of seams across the smooth, and of hidden ones) over the square root of the area."""
-    lengths, part = surface._native.edge_lengths[is_border], seen(bends(surface)[is_border])
+    lengths, part = surface._native.edge_lengths[is_border], seen(breaks(surface)[is_border])
     size = math.sqrt(surface.area)
     return float((lengths * part).sum()) / size, float((lengths * (1 - part)).sum()) / size

@@ -13,7 +13,8 @@ from ..cutting.island_cuts import edges_between, in_one_orientation
 from ..cutting.island_layout import Islands
 from ..mesh.cut_open import cut_open
 from ..mesh.edges import around_boundary, boundary_edges, edge_keys
-from ..mesh.hard_edges import TIP, bends, curvature, seen
+from ..mesh.facets import breaks
+from ..mesh.hard_edges import TIP, curvature, seen
 from ..mesh.origin import Origin
 from ..mesh.surface import Surface
 from ..quality.appearance import cost
@@ -105,7 +106,7 @@ def _piece(part, name, flat, threads):
     native, count = part._native, part.given_vertex_count
     is_inner = np.bincount(native.triangle_edges.ravel(), minlength=len(native.edges)) == 2
     is_seam = np.isin(edge_keys(part.vertex_index[native.edges], count), edge_keys(flat.seams, count)) & is_inner
-    soft = float((native.edge_lengths * seen(bends(part)))[is_seam].sum())
+    soft = float((native.edge_lengths * seen(breaks(part)))[is_seam].sum())
     return Piece(part, name, uv, cost(quality, 0, soft / math.sqrt(part.area))), soft, cost(quality)
 
 

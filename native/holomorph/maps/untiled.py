@@ -12,7 +12,8 @@ from ..core.progress import scaled
 from ..core.value import counted
 from ..cutting.island_layout import Islands
 from ..cutting.island_map import EVENED, HARD, IslandSearch, one_island
-from ..mesh.hard_edges import TIP, curvature, is_hard
+from ..mesh.facets import breaks
+from ..mesh.hard_edges import TIP, curvature
 from ..mesh.surface import Surface
 from ..quality.appearance import cost
 from ..tiling.tilings import Tiling
@@ -106,7 +107,7 @@ class Untiled:
     def _may_flatten(self):
         if self._search is None:
             return False
-        return curvature(self.surface, is_hard(self.surface, HARD[-1]), TIP) <= MOST_CURVED
+        return curvature(self.surface, breaks(self.surface) > np.radians(HARD[-1]), TIP) <= MOST_CURVED
 
     @property
     def _work(self):

@@ -15,19 +15,27 @@ def is_hard(surface, degrees):
 
 def bends(surface):
     """(#E,) radians by which the normals of the two faces of an edge differ; 0 for diagonals and on the boundary."""
-    normals = _face_normals(surface)
-    edges, faces = surface._native.triangle_edges.ravel(), np.repeat(surface.triangle_faces, 3)
-    order = np.argsort(edges, kind="stable")
-    both = np.flatnonzero(edges[order[1:]] == edges[order[:-1]])
-    one, other = normals[faces[order[both]]], normals[faces[order[both + 1]]]
-    bend = np.arctan2(np.linalg.norm(np.cross(one, other), axis=1), np.einsum("ij,ij->i", one, other))
+    normals, (edges, one, other) = _face_normals(surface), faces_of_edges(surface)
     result = np.zeros(len(surface._native.edges))
-    result[edges[order[both]]] = bend
+    result[edges] = angles(normals[one], normals[other])
     return result
 
 
+def faces_of_edges(surface):
+    """((n,) the edges that are not on the boundary, (n,) the faces to one side of each, (n,) to the other)."""
+    edges, faces = surface._native.triangle_edges.ravel(), np.repeat(surface.triangle_faces, 3)
+    order = np.argsort(edges, kind="stable")
+    both = np.flatnonzero(edges[order[1:]] == edges[order[:-1]])
+    return edges[order[both]], faces[order[both]], faces[order[both + 1]]
+
+
+def angles(one, other):
+    """(n,) radians between (n, 3) vectors."""
+    return np.arctan2(np.linalg.norm(np.cross(one, other), axis=1), np.einsum("ij,ij->i", one, other))
+
+
 def seen(bent):
-    """How far a seam is seen along edges with these `bends`: from 0 where they hide it to 1 across the smooth."""
+    """How far a seam is seen along edges with these `facets.breaks`: from 0, hidden, to 1 across the smooth."""
     return np.maximum(1 - bent / HIDING, 0)
 
 
