@@ -165,6 +165,8 @@ def test_shear_that_evening_added_is_forgiven_in_words_and_level():
         after = own.quality(own.uv() * [factor, 1.0])
         assert "sheared" in after.verdict.sentence
         assert ("sheared" in after.evened_from(before, 1.0).verdict.sentence) == is_told
+    after = own.quality(own.uv() * [1.05 * SHEARED[1], 1.0])
+    assert "slightly sheared" in after.evened_from(before, 1.0).verdict.sentence  # what is plainly sheared is told
     after = own.quality(own.uv() * [0.999 + (COSTS[1] - cost(before)) / SHEAR + UNSEEN, 1.0])
     assert (after.verdict.level, after.evened_from(before, 1.0).verdict.level) == ("poor", "fair")
 
