@@ -34,6 +34,7 @@ WILD = CORE + "mesh/test_wild_vertices.py"
 TURNED = CORE + "turns/test_turned_tilings.py"
 LINES = CORE + "turns/test_turned_lines.py"
 ASKED = CORE + "turns/test_asked_turns.py"
+CHOSEN = CORE + "turns/test_chosen_cones.py"
 GLB = CORE + "files/test_gltf.py"
 
 
@@ -262,6 +263,7 @@ MUTATIONS = (
         ("lines-jagged", "kMostTurned = 3", "kMostTurned = 300", LINES),
     )
     | of(ROOM + "turns/rounding.cpp", ("turned-sizes", "kOtherSize = 1;", "kOtherSize = 0;", TURNED))
+    | of(ROOM + "turns/chosen_cones.cpp", ("cones-sum", "left != 0 && holes.empty()", "false", CHOSEN))
     | of(ROOM + "turns/turned_space.cpp", ("lines-parts", "% 2 == 0 ? 1 : 0;", "% 2 == 0 ? 0 : 1;", LINES))
     | of(
         ROOM + "evening/unknowns.cpp",

@@ -36,12 +36,13 @@ class TileOptions:
     turns: int = 1  # 2, 4 or 6: the sides of a cut may turn by this part of a full turn
     lines: str = "automatic"  # at which rows end, or along which they run, where the map turns
     marked: bytes | None = None  # of the vertices of edges that are lines besides those found, (n, 2) int64
+    cones: tuple = ()  # (vertex, angle in full turns) where they are chosen; none are searched for
     moved: tuple = ()  # (index of a pole in its part's tiling, vertex to which it was dragged)
 
     @property
     def is_chosen(self):
         """Whether poles, places for them, or a number of tiles are chosen."""
-        return bool(self.tiles or self.moved) or self.allowed is not None or self.poles not in ("auto", 0)
+        return bool(self.tiles or self.moved or self.cones) or self.allowed is not None or self.poles not in ("auto", 0)
 
     @property
     def made(self):
@@ -253,6 +254,7 @@ def _requests(components, options):
         poles=wanted.poles,
         allowed=None if wanted.allowed is None else np.frombuffer(wanted.allowed, bool),
         moves=wanted.moved,
+        cones=dict(wanted.cones),
         marked=None if wanted.marked is None else np.frombuffer(wanted.marked, np.int64).reshape(-1, 2),
         direction=wanted.direction,
         evenness=wanted.evenness,

@@ -15,11 +15,12 @@ NAVIGATION = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "T
 NAVIGATION |= {f"NUMPAD_{key}" for key in (*range(10), "PERIOD", "PLUS", "MINUS")}
 KEEP = {"RET", "NUMPAD_ENTER", "SPACE"}
 GIVE_UP = {"ESC", "RIGHTMOUSE"}
-HELP = "Drag the poles, the orange dots   (Enter: keep, ESC: undo all)"
+HELP = "Drag the poles, the orange dots, or the cones, the blue ones   (Enter: keep, ESC: undo all)"
 
 
 class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
-    """Drag the poles of the active object's seamless tiling to other places: the texture follows"""
+    """Drag the poles of the active object's seamless tiling to other places, or the cones of one that turns: the
+    texture follows"""
 
     bl_idname = "uv.holomorphic_drag_poles"
     bl_label = "Drag Poles"
@@ -38,10 +39,9 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
 
         obj = context.active_object
         text = obj.get(report.PROPERTY) if obj is not None and obj.type == "MESH" else None
-        if stored.turns(text) != 1:
-            return "The cones of a map that turns stay where they are: set Turns to None for poles to drag"
-        if "asked" not in stored.parsed(text) or not stored.marks(text)[1].any():
-            return "Select an object with poles of Seamless Tiling"
+        has_marks = len(stored.cones(text)) if stored.turns(text) != 1 else stored.marks(text)[1].any()
+        if "asked" not in stored.parsed(text) or not has_marks:
+            return "Select an object with poles or cones of Seamless Tiling"
         return ""
 
     def draw(self, context):
@@ -160,6 +160,8 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         done = [part.tiling for part in self._session.mapped.tiled]
         added = max(made.added_distortion for made in done)
         size = max(made.size_range for made in done)
+        if self._session.noun == "cone":
+            return f"size range {size:.3g}, angle distortion {max(made.quality.mean_angle for made in done):.3g}"
         return f"angle distortion added by whole tiles: {added:.4f}, size range {size:.3g}"
 
     def _keep(self, context):
@@ -191,7 +193,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         session, poles = self._session, self._session.poles
         for pole, vertex in self._wanted.items():
             poles[pole] = vertex
-        overlay.dragged[self._object.name] = overlay.Dragged(poles, session.zeros, self._hovered)
+        overlay.dragged[self._object.name] = overlay.Dragged(poles, session.zeros, self._hovered, session.noun)
         context.area.tag_redraw()
 
 

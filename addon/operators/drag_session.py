@@ -34,47 +34,84 @@ class Session:
         self._map = uv_maps.main_map(obj.data)
         if asked is None or self.target.refused or self._map not in obj.data.uv_layers:
             raise ValueError(f"{obj.name}: it has no tiling with poles to drag; {AGAIN}")
-        self._asked = replace(asked, allowed=request.allowed(asked.pole_group, obj))
+        allowed, lines = request.allowed(asked.pole_group, obj), request.lines(asked.lines, self.target, asked.turns)
+        self._asked, self._are_cones = replace(asked, allowed=allowed, **lines), stored.turns(text) != 1
         self._write_options = write.options_of(stored.parsed(text)["dials"])
         self._task = targets.tasks([self.target])[0]
         self.mapped = None
-        self.mapped = self.made({})
+        self.mapped = self._first = self.made({})
+        if not self.mapped.tiled:
+            reasons = [part.skipped or part.not_seamless for part in self.mapped.parts]
+            raise ValueError(f"{obj.name}: {'; '.join(filter(None, reasons))}")
         vertices, is_pole = stored.marks(text)
-        if not np.array_equal(self.poles, vertices[is_pole]):
+        if not np.array_equal(self.poles, stored.cones(text) if self._are_cones else vertices[is_pole]):
             raise ValueError(f"{obj.name}: its mesh has changed since it was tiled; {AGAIN}")
         self._uv, self._is_shown = uv_maps.read_map(obj.data, self._map), False
         self._parts = [part.component.surface.vertex_index for part in self.mapped.tiled]
+        if any(part.tiling.lines != "none" for part in self.mapped.tiled if part.tiling):
+            raise ValueError(f"{obj.name}: its rows lie at edges, which hold its cones: set Rows to Anywhere first")
+        self._boundary = np.concatenate([self._boundary_of(part) for part in self.mapped.tiled])
         self.allowed = None if self._asked.allowed is None else np.frombuffer(self._asked.allowed, bool)
 
     @property
     def poles(self):
-        """(n,) vertices of the object, where they are now."""
-        return np.concatenate([part.vertices(part.tiling.poles) for part in self.mapped.tiled])
+        """(n,) vertices of the object, where they are now; or the cones of a map that turns."""
+        if self._are_cones and self.mapped is not self._first:
+            return np.array([vertex for vertex, _ in self.mapped.options.tiling.cones])
+        return np.concatenate([part.vertices(own) for part, own in zip(self.mapped.tiled, self._own)])
+
+    @property
+    def _own(self):
+        """The poles of each part with a tiling, or the cones, as the part counts vertices."""
+        name = "cones" if self._are_cones else "poles"
+        return [getattr(part.tiling, name) for part in self._first.tiled]
 
     @property
     def zeros(self):
         """(n,) vertices of the object at the branch points."""
         return np.concatenate([part.vertices(part.tiling.zeros[0]) for part in self.mapped.tiled])
 
+    @staticmethod
+    def _boundary_of(part):
+        """Vertices of the object on its boundary."""
+        return part.vertices(native.module("mesh.edges").boundary_edges(part.map.surface).ravel())
+
     def place(self, pole):
         """(number of its part among those with a tiling, its index there)"""
-        for number, part in enumerate(self.mapped.tiled):
-            if pole < len(part.tiling.poles):
-                return number, pole
-            pole -= len(part.tiling.poles)
-        raise ValueError(f"pole {pole} does not exist: there are {len(self.poles)}")
+        index = pole
+        for number, own in enumerate(self._own):
+            if index < len(own):
+                return number, index
+            index -= len(own)
+        raise ValueError(f"{self.noun} {pole} does not exist: there are {len(self.poles)}")
+
+    @property
+    def noun(self):
+        return "cone" if self._are_cones else "pole"
 
     def may_go_to(self, pole, vertex):
-        """Whether the vertex is on the pole's part, and where poles are allowed."""
+        """Whether the vertex is on the pole's part, and where poles are allowed; that of a cone is inside, and has no
+        other one."""
         is_there = vertex in self._parts[self.place(pole)[0]]
+        if self._are_cones and (vertex in self._boundary or vertex in np.delete(self.poles, pole)):
+            return False
         return bool(is_there and (self.allowed is None or self.allowed[vertex]))
 
     def job(self, moves):
         """A `jobs.Job` that makes the tiling with poles at other vertices, {pole: vertex}; what was dragged in an
         earlier session stays there."""
-        asked = replace(self._asked, moved=self._earlier_and(moves) if moves else self._asked.moved)
+        asked = replace(self._asked, **self._moved(moves)) if moves else self._asked
         options = MapOptions(forms=0, main=TILING, tiling=asked)
         return jobs.Job([self._task], then=mapped.follow([options]))
+
+    def _moved(self, moves):
+        """The fields of `TileOptions` with these moves."""
+        if not self._are_cones:
+            return {"moved": self._earlier_and(moves)}
+        places = np.concatenate([part.vertices(own) for part, own in zip(self._first.tiled, self._own)])
+        places[list(moves)] = list(moves.values())
+        angles = np.concatenate([part.tiling.cone_angles for part in self._first.tiled])
+        return {"cones": tuple(zip(places.tolist(), angles.tolist()))}
 
     def _earlier_and(self, moves):
         """((index in its part, vertex), ...): an earlier move of a pole gives way to a new one."""
@@ -88,7 +125,8 @@ class Session:
         """Makes the tiling of these moves at once. @throws ValueError for a vertex where the pole cannot go"""
         for pole, vertex in moves.items():
             if not self.may_go_to(pole, vertex):
-                raise ValueError(f"pole {pole} cannot move to vertex {vertex}, which is on another part or not allowed")
+                why = "on another part or not allowed" if not self._are_cones else "no place of its own inside its part"
+                raise ValueError(f"{self.noun} {pole} cannot move to vertex {vertex}, which is {why}")
         job = self.job(moves)
         job.run()
         return self.taken(job)

@@ -138,7 +138,9 @@ def _turned(properties, target, own, tiling):
     }
     chosen = [dial for dial, is_chosen in excluded.items() if is_chosen]
     if not chosen:
-        return replace(tiling, turns=turns, lattice=lattice, boundary="automatic", **_lines(properties, target, turns))
+        return replace(
+            tiling, turns=turns, lattice=lattice, boundary="automatic", **lines(ROWS[properties.rows], target, turns)
+        )
     if properties.turns not in TURNS:
         return tiling
     raise ValueError(
@@ -146,12 +148,12 @@ def _turned(properties, target, own, tiling):
     )
 
 
-def _lines(properties, target, turns):
+def lines(asked, target, turns):
     """The fields of `TileOptions` that say where rows end: at hard edges, and at those that are marked sharp."""
-    lines = ROWS[properties.rows] if turns in LINED else "automatic"
-    if lines == "none" or turns not in LINED or not len(target.sharp):
-        return {"lines": lines}
-    return {"lines": lines, "marked": target.sharp.astype(np.int64).tobytes()}
+    if turns not in LINED:
+        return {"lines": "automatic"}
+    is_marked = asked != "none" and len(target.sharp)
+    return {"lines": asked, "marked": target.sharp.astype(np.int64).tobytes() if is_marked else None}
 
 
 def _follows_texture(properties, target):

@@ -85,12 +85,12 @@ def _all_points(objects, dragged):
 def _points(obj, dragged):
     """The marks of an object with a report: (n, 3) places in the world, (n,) kinds, (n,) whether the pointer is on
     it."""
-    vertices, is_pole = stored.marks(obj[report.PROPERTY])
+    (vertices, is_pole), cones = stored.marks(obj[report.PROPERTY]), stored.cones(obj[report.PROPERTY])
     kinds = np.where(is_pole, POLE, ZERO)
-    if dragged is not None:
-        vertices = np.concatenate([dragged.poles, dragged.zeros])
-        kinds = np.where(np.arange(len(vertices)) < len(dragged.poles), POLE, ZERO)
-    cones = stored.cones(obj[report.PROPERTY])
+    if dragged is not None:  # these first, as they are numbered
+        vertices, kind = np.concatenate([dragged.poles, dragged.zeros]), NAMES.index(dragged.noun)
+        kinds = np.where(np.arange(len(vertices)) < len(dragged.poles), kind, ZERO)
+        cones = cones[:0] if kind == CONE else cones
     vertices, kinds = np.concatenate([vertices, cones]), np.append(kinds, np.full(len(cones), CONE))
     if len(vertices) and vertices.max() >= len(obj.data.vertices):  # the mesh is not what it was
         vertices, kinds = vertices[:0], kinds[:0]

@@ -23,11 +23,12 @@ _handles = []
 
 @dataclass(frozen=True)
 class Dragged:
-    """The marks of an object whose poles are dragged."""
+    """The marks of an object whose poles are dragged, or its cones."""
 
-    poles: object  # vertices
+    poles: object  # vertices; or the cones
     zeros: object  # vertices
     hovered: int | None  # among the poles
+    noun: str = "pole"
 
 
 dragged = {}  # `Dragged` by the object's name, while it lasts

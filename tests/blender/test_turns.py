@@ -339,13 +339,6 @@ def test_cones_are_dots_of_their_own():
     assert np.allclose(points, np.array([obj.data.vertices[v].co for v in tilings(obj)[0]["cones"]]))
 
 
-def test_cones_are_not_dragged():
-    ball()
-    tile(turns="HALF")
-    with pytest.raises(RuntimeError, match="cones of a map that turns stay where they are"):
-        bpy.ops.uv.holomorphic_drag_poles(moves="0:3")
-
-
 @pytest.mark.parametrize("options", [{"poles": "KEPT"}, {"poles": "COARSE"}])
 def test_poles_of_a_turned_map(options):
     """There are none to keep; and none to add to."""

@@ -23,7 +23,7 @@ from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from ..tiling.tiling import Tiler
 from ..tiling.tilings import Poles, Tiling, asked_poles
-from ..tiling.turned import LATTICE, TurnedTiler, asked_turns, check_fits, checked_lines
+from ..tiling.turned import LATTICE, TurnedTiler, asked_turns, check_cones, check_fits, checked_lines
 from .solver_report import Residuals, SolverReport
 
 PLACING = 0.6  # part of the work on a tiling, for finding the poles
@@ -116,6 +116,7 @@ class Structure(Value):
         texture: ArrayLike | None = None,
         lines: str = "none",
         marked: ArrayLike | None = None,
+        cones: Mapping[int, float] | None = None,
         surface: Surface | None = None,
         progress: Progress | None = None,
     ) -> Tiling:
@@ -153,6 +154,8 @@ class Structure(Value):
         lines : "free" for rows that run along long hard edges and smooth boundaries, "whole" for rows that end there as
             well, where turns is 4, or 2 and the edges suit it; "none"
         marked : (n, 2) vertices of edges that are such lines, too; others than edges are ignored
+        cones : {vertex: angle in full turns, 3/4 where three squares meet} where these are chosen, on a tiling that
+            turns and has no lines. On a closed surface what is missing of full turns is the Euler characteristic
 
         Raises TopologyError for poles that do not fit, for fewer tiles than the surface needs (names how many are
         enough), and for more added distortion than `max_added` (names what can be had). Poles are kept.
@@ -162,11 +165,12 @@ class Structure(Value):
         placing, rounding = scaled(progress, 0.0, PLACING), scaled(progress, PLACING, 1.0)
         turns = asked_turns(turns, texture)
         lines = checked_lines(lines, turns)
+        check_cones(cones, turns, lines)
         if turns != 1:
             chosen = {"poles": (poles, "auto", 0), "turn": (turn, 0.0), "boundary": (boundary, "automatic")}
             chosen |= {"lattice": (lattice, "square", LATTICE.get(turns)), "max_added": (max_added,)}
             check_fits(chosen | {"allowed": (allowed,), "moves": (moves or None,)})
-            tiler = self._turned_tiler(surface, turns, direction, lines, marked)
+            tiler = self._turned_tiler(surface, turns, direction=direction, lines=lines, marked=marked, cones=cones)
             key = tiler, tiles, evenness
             made = self._tilings.get(key) or tiler.tile(tiles, evenness=evenness, progress=rounding)
             return self._tilings.keep(key, made)
@@ -222,12 +226,11 @@ class Structure(Value):
             tiler = Tiler(surface, poles, **options, progress=progress)
         return self._tilers.keep(key, tiler)
 
-    def _turned_tiler(self, surface, turns, direction, lines, marked):
+    def _turned_tiler(self, surface, turns, **chosen):
         surface = self._component if surface is None else surface
-        key = surface, turns, _hashable(direction), lines, _hashable(marked)
+        key = surface, turns, *map(_hashable, chosen.values())
         tiler = self._tilers.get(key)
         if tiler is None:
-            chosen = {"direction": direction, "lines": lines, "marked": marked}
             tiler = TurnedTiler(surface, turns, **chosen, threads=self._threads)
         return self._tilers.keep(key, tiler)
 
@@ -267,7 +270,9 @@ class Structure(Value):
 
 def _hashable(value):
     """An option of a tiling as a key."""
-    return value if value is None or isinstance(value, (str, numbers.Real)) else repr(np.asarray(value).tolist())
+    if value is None or isinstance(value, (str, numbers.Real)):
+        return value
+    return repr(sorted(value.items()) if isinstance(value, Mapping) else np.asarray(value).tolist())
 
 
 def result(kind, surface, component, native, threads, **more):

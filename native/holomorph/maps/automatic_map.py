@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from numpy.typing import ArrayLike
@@ -39,6 +39,7 @@ def automatic_map(
     texture: ArrayLike | None = None,
     lines: str = AUTOMATIC,
     marked: ArrayLike | None = None,
+    cones: Mapping[int, float] | None = None,
     evenness: float = EVENNESS,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -58,6 +59,7 @@ def automatic_map(
         map of forms, as when something about the structure was chosen
     tiles, poles, lattice, boundary, turn, max_turn, max_added, turns, texture : of tilings, as in `Structure.tile`
     lines, marked : likewise, where they can be made; "automatic" for lines that cost little
+    cones : likewise; then there are no lines
     density, density_tolerance : tiles per unit of area, and the relative amount by which whole tiles may miss it; where
         they miss it by more, the map is not a tiling
     direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
@@ -78,7 +80,7 @@ def automatic_map(
     """
     check_type(surface, Surface)
     options = {"lattice": lattice, "boundary": boundary, "turn": turn, "max_turn": max_turn, "max_added": max_added}
-    options |= _turning(turns, texture, lines) | {"marked": marked}
+    options |= _turning(turns, texture, lines) | {"marked": marked, "cones": cones}
     request = Request(surface, structure, main, poles, evenness, direction, options=options)
     size = SizePolicy.of([surface], tiles, density, density_tolerance)
     (((made,), _),) = map_objects([[request]], size, threads, progress)
@@ -102,6 +104,7 @@ def automatic_maps(
     texture: ArrayLike | None = None,
     lines: str = AUTOMATIC,
     marked: ArrayLike | None = None,
+    cones: Mapping[int, float] | None = None,
     evenness: float = EVENNESS,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -124,7 +127,7 @@ def automatic_maps(
     poles : "auto", a number for each part, or a list of vertices; "auto" on parts without any
     allowed : (#V,) bool, where poles may be that are not chosen; parts without such vertices get none
     moves : (index of a pole in the tiling of its part, vertex) for each pole that is moved after the rounding
-    direction, turns, texture, lines, marked, evenness, options, threads, progress : as in `automatic_map`
+    direction, turns, texture, lines, marked, cones, evenness, options, threads, progress : as in `automatic_map`
 
     Raises ValueError and TypeError for arguments that do not fit; MemoryError; Cancelled. What a part itself raises
     takes the place of its map.
@@ -145,7 +148,7 @@ def automatic_maps(
     check_list(moves, "moves")
     mains = [main] * len(parts) if isinstance(main, str) else main
     options |= _turning(turns, texture, lines)
-    chosen = {"poles": poles, "allowed": allowed, "moves": moves, "marked": marked}
+    chosen = {"poles": poles, "allowed": allowed, "moves": moves, "marked": marked, "cones": cones}
     asked = MeshRequest(**chosen, direction=direction, evenness=evenness, options=options)
     requests = [asked.of_part(*each) for each in zip(parts, structures or [None] * len(parts), mains)]
     ((made, _),) = map_objects([requests], SizePolicy.of(parts, tiles, density), threads, progress)

@@ -112,7 +112,7 @@ class MapSearch:
             return self._in_pieces(None, density, 0, EXACT, progress) or made
         if not made.tiling:
             return made
-        if made.turns != 1 and not inside:
+        if made.turns != 1 and not inside and not self._tilings.is_strict:
             return self._less_bound(made.tiling, density, window, progress)
         made = self._tilings.moved(inside or found, density, True, progress)
         return made if inside else self._fitted(made, density, window, progress)

@@ -69,6 +69,7 @@ class MeshRequest:
     allowed: ArrayLike | None = None
     moves: Sequence[tuple[int, int]] = ()
     marked: ArrayLike | None = None
+    cones: Mapping[int, float] | None = None
     direction: ArrayLike | str | None = "upright"
     evenness: float = EVENNESS
     amounts: Sequence[float] = ()
@@ -87,6 +88,7 @@ class MeshRequest:
         moves = {pole: int(place) for (pole, _), place, has in zip(self.moves, places, is_there) if has}
         marked = None if self.marked is None else edges_on_part(part, integer(self.marked, "marked", 2, (2,)))
         options = {**self.options, "allowed": allowed, "moves": moves, "marked": marked}
+        options["cones"] = self._cones_on(part)
         return Request(part, structure, main or self.main, poles, self.evenness, self.direction, options=options)
 
     def of_structure(self, part: PartStructure) -> Request:
@@ -99,6 +101,13 @@ class MeshRequest:
         evenness = 0.0 if is_mixed and len(part.surface.triangles) > MIXED_EVENED else self.evenness
         mixed = _mixed_coefficients(part.structure, self.amounts, self.phases)
         return replace(made, coefficients=mixed, evenness=evenness)
+
+    def _cones_on(self, part):
+        """{vertex of the part: angle}; None where none of them is chosen, and they are searched for."""
+        if not self.cones:
+            return None
+        places, is_there = on_part(part, integer(list(self.cones), "cones"))
+        return {int(v): angle for v, angle, has in zip(places, self.cones.values(), is_there) if has} or None
 
     def _allowed_on(self, part):
         if self.allowed is None:

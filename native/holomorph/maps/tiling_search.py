@@ -70,7 +70,7 @@ class TilingSearch:
         options = self._request.options
         is_chosen = not (self._is_open or self._has_no_poles)
         is_bound = any(options.get(name) is not None for name in ("max_added", "allowed"))
-        return is_chosen or is_bound or bool(options.get("moves"))
+        return is_chosen or is_bound or bool(options.get("moves")) or self._has_cones
 
     def guess_without_poles(self) -> float:
         """About what a tiling without poles costs, of which only the density is known."""
@@ -127,6 +127,8 @@ class TilingSearch:
         turns, lines = self._request.options.get("turns", 1), self._request.options.get("lines", AUTOMATIC)
         if turns == 1:
             return self._shifted(size, progress)
+        if self._has_cones:
+            return self._with(self._request.poles, size, progress, turns=turns)
         step, size = scaled(progress, 1.0, 1.0), size | ({"lattice": LATTICE[turns]} if turns in LATTICE else {})
         if lines in CHOSEN_LINES and len(self._edges_of_lines):
             if lined := self._with_turns(size, progress, turns, lines):
@@ -222,6 +224,11 @@ class TilingSearch:
             yield len(made.poles) + MORE_POLES
 
     @property
+    def _has_cones(self):
+        """Whether they are chosen."""
+        return self._request.options.get("cones") is not None
+
+    @property
     def _has_no_poles(self):
         return isinstance(self._request.poles, numbers.Real) and self._request.poles == 0
 
@@ -238,6 +245,7 @@ class TilingSearch:
         """Raises what `Structure.tile` raises; TopologyError where too much is lost."""
         options = {**self._request.tiling, "moves": {}, **size, "turns": turns, "lines": lines}
         options["marked"] = None if lines == "none" else self._marked
+        options["cones"] = options.get("cones") if turns != 1 and lines == "none" else None
         made = self._structure.tile(poles=poles, surface=self.surface, progress=progress, **options)
         lost = made.quality.lost_part
         if not lost < MOST_LOST:

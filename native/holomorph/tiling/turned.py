@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numbers
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -13,8 +14,8 @@ from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import Integers, Progress
 from ..core.value import quoted
-from ..mesh.checks import check_threads, checked_evenness, only_component, real_number
-from ..mesh.edges import edge_keys
+from ..mesh.checks import check_threads, checked_evenness, only_component, own_vertices, real_number
+from ..mesh.edges import boundary_edges, edge_keys
 from ..mesh.hard_edges import is_hard
 from ..mesh.origin import edges_on_part
 from ..mesh.surface import Surface
@@ -27,6 +28,7 @@ AUTO = "auto"  # those of the texture
 LATTICE = {2: "square", 4: "square", 6: "hex"}  # of which a turn by this part of a full one is a symmetry
 PRICE = 2e-4  # of a cone: what it is to take off the mean square of the logarithm of the scale
 LINED_TURNS = (2, 4)  # lines cross at right angles
+WHOLE = 1e-6  # part of a turn: less is rounding
 MOST_LOST = 0.5  # part of the area: nothing is left to look at
 LINES = ("none", "free", "whole")
 AUTOMATIC = "automatic"  # the lines that cost little
@@ -47,9 +49,10 @@ class TurnedTiler:
     lines : "free" where rows are to run along long hard edges and smooth boundaries; "whole" where they are to end
         there as well; "none"
     marked : (n, 2) vertices of edges that are to be lines besides those of `lines_of`
+    cones : {vertex: angle in full turns} instead of those that are searched for
     threads : as in `conformal_structure`
 
-    Raises TopologyError for a surface without positions.
+    Raises TopologyError for a surface without positions, and for cones that it cannot have.
     """
 
     def __init__(
@@ -60,6 +63,7 @@ class TurnedTiler:
         direction: ArrayLike | str | None = UPRIGHT,
         lines: str = "none",
         marked: ArrayLike | None = None,
+        cones: Mapping[int, float] | None = None,
         threads: int | None = 0,
     ) -> None:
         self._surface, self._component, self._threads = surface, only_component(surface), check_threads(threads or None)
@@ -76,6 +80,7 @@ class TurnedTiler:
             tiles=self._tiles,
             lines=edges,
             whole_lines=lines == "whole",
+            chosen=[] if cones is None else self._missing(cones),
         )
 
     def tile(self, tiles: float | None = None, *, evenness: float = 0.0, progress: Progress | None = None) -> Tiling:
@@ -120,6 +125,26 @@ class TurnedTiler:
             lines=self._lines,
         )
 
+    def _missing(self, cones):
+        """(#V,) k-th turns that are missing around the vertices of the component."""
+        if not isinstance(cones, Mapping):
+            raise ValueError(f"cones is {quoted(cones)}; a dictionary from vertices to angles in full turns is needed")
+        vertices, _ = own_vertices(self._surface, self._component, list(cones), "cone")
+        angles = [real_number(angle, "the angle around a cone", positive=True) for angle in cones.values()]
+        parts = np.rint(np.multiply(angles, self._turns)).astype(np.int64)
+        wrong = np.flatnonzero((np.abs(np.multiply(angles, self._turns) - parts) > WHOLE) | (parts < 1))
+        if len(wrong):
+            wanted = f"{self._turns}, whole parts of a turn"
+            raise ValueError(
+                f"the angle around a cone is {angles[wrong[0]]:.6g} turns; multiples of 1/{wanted}, are needed"
+            )
+        missing = np.zeros(len(self._component.vertices), np.int64)
+        missing[vertices] = self._turns - parts
+        edge = np.flatnonzero(np.isin(vertices, boundary_edges(self._component)))
+        if len(edge):
+            raise TopologyError(f"vertex {list(cones)[edge[0]]} is on the boundary, where no cone can be")
+        return missing
+
     def _own_edges(self, ends):
         if ends is None:
             return None
@@ -160,6 +185,12 @@ def checked_lines(lines: Any, turns: int, *others: str) -> str:
     if lines not in (*others, "none") and turns not in LINED_TURNS:
         raise ValueError(f"lines is {quoted(lines)}, for which turns must be 2 or 4")
     return lines
+
+
+def check_cones(cones: Any, turns: int, lines: str) -> None:
+    """Raises ValueError for chosen cones of a tiling that has none, or whose lines say where they are."""
+    if cones is not None and (turns == 1 or lines != "none"):
+        raise ValueError("cones can be chosen for tilings that turn by 2, 4 or 6 and have no lines")
 
 
 def asked_turns(turns: Any, texture: ArrayLike | None) -> int:

@@ -61,10 +61,12 @@ Tiling evened(const Tiling& made, double evenness, int threads, const py::object
 
 std::unique_ptr<turns::TurnedMaps> turned_maps(const std::shared_ptr<mesh::Surface>& surface, int turns, double price,
                                                std::optional<std::array<double, 3>> direction, bool is_of_u,
-                                               double tiles, std::vector<int> lines, bool whole_lines) {
+                                               double tiles, std::vector<int> lines, bool whole_lines,
+                                               std::vector<int> chosen) {
   turns::ConeOptions options{turns, price, {}, tiles};
   if (direction) options.along = {*direction, is_of_u};
-  return std::make_unique<turns::TurnedMaps>(surface, options, turns::Lines{std::move(lines), whole_lines});
+  return std::make_unique<turns::TurnedMaps>(surface, options, turns::Lines{std::move(lines), whole_lines},
+                                             std::move(chosen));
 }
 
 std::array<py::array, 5> turned_map(turns::TurnedMaps& maps, double tiles, double evenness, int threads,
@@ -82,7 +84,7 @@ std::array<py::array, 5> turned_map(turns::TurnedMaps& maps, double tiles, doubl
 void bind_turned_map(py::module_& m) {
   py::class_<turns::TurnedMaps>(m, "TurnedMaps")
       .def(py::init(&turned_maps), "surface"_a, py::kw_only(), "turns"_a, "price"_a, "direction"_a, "is_of_u"_a,
-           "tiles"_a, "lines"_a, "whole_lines"_a);
+           "tiles"_a, "lines"_a, "whole_lines"_a, "chosen"_a);
   m.def(
       "long_lines",
       [](const mesh::Surface& surface, const std::vector<int>& hard) { return copy(turns::long_lines(surface, hard)); },

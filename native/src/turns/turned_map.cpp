@@ -9,6 +9,7 @@
 #include "base/errors.h"
 #include "evening/evening.h"
 #include "tiling/greens/coarse_level.h"
+#include "turns/chosen_cones.h"
 #include "turns/rounding.h"
 
 namespace holomorph::turns {
@@ -267,8 +268,9 @@ std::vector<int> cones_of(const std::shared_ptr<const mesh::Surface>& surface, c
 
 }  // namespace
 
-TurnedMaps::TurnedMaps(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, Lines lines)
-    : surface_(std::move(surface)), options_(options), lines_(std::move(lines)) {
+TurnedMaps::TurnedMaps(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, Lines lines,
+                       std::vector<int> chosen)
+    : surface_(std::move(surface)), options_(options), lines_(std::move(lines)), chosen_(std::move(chosen)) {
   if (surface_->intrinsic()) throw TopologyError("a turned map needs positions: the surface has edge lengths alone");
 }
 
@@ -279,9 +281,14 @@ const PlacedCones& TurnedMaps::placed(int level, Execution& execution) {
   if (!found) {
     ConeOptions wanted = options_;
     wanted.tiles *= std::exp2(-level);
-    found = lines_.edges.empty()
-                ? std::make_unique<PlacedCones>(surface_, wanted, cones_of(surface_, wanted, execution))
-                : std::make_unique<PlacedCones>(surface_, wanted, lines_, execution);
+    if (!chosen_.empty()) {
+      std::vector<int> missing = with_holes(Net(*surface_), wanted.k, chosen_, execution);
+      found = std::make_unique<PlacedCones>(surface_, wanted, std::move(missing));
+    } else if (lines_.edges.empty()) {
+      found = std::make_unique<PlacedCones>(surface_, wanted, cones_of(surface_, wanted, execution));
+    } else {
+      found = std::make_unique<PlacedCones>(surface_, wanted, lines_, execution);
+    }
   }
   return *found;
 }
@@ -289,9 +296,11 @@ const PlacedCones& TurnedMaps::placed(int level, Execution& execution) {
 TurnedMap TurnedMaps::turned_map(double tiles, double evenness, Execution& execution) {
   const std::lock_guard lock(one_at_a_time_);
   const double times = options_.tiles / tiles;
-  const int first = std::clamp(static_cast<int>(std::lround(std::log2(times))), 0, kMostLevels);
+  const bool are_chosen = !chosen_.empty();
+  const int first = are_chosen ? 0 : std::clamp(static_cast<int>(std::lround(std::log2(times))), 0, kMostLevels);
+  const int last = first + (are_chosen ? 0 : kFurtherApart);
   PlacedCones::Judged best;
-  for (int level = first; level <= first + kFurtherApart && best.bad.first > 0; ++level) {
+  for (int level = first; level <= last && best.bad.first > 0; ++level) {
     PlacedCones::Judged other = placed(level, execution).best_map(tiles, evenness, execution);
     const bool helps = other.bad.first < kHelps * best.bad.first;
     if (other.bad < best.bad) best = std::move(other);

@@ -36,14 +36,16 @@ class PlacedCones;
 /// tiles.
 class TurnedMaps {
  public:
+  /// @param chosen #V, k-th turns that are missing around the cones; empty where these are searched for.
   /// @throws TopologyError for a surface without positions
-  TurnedMaps(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, Lines lines = {});
+  TurnedMaps(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, Lines lines = {},
+             std::vector<int> chosen = {});
   ~TurnedMaps();
 
   const mesh::Surface& surface() const { return *surface_; }
 
   /// The map with about this number of tiles at its median density. Where triangles stay flipped, cones that lie
-  /// further apart are tried.
+  /// further apart are tried, unless they are chosen. @throws TopologyError for chosen ones, as with_holes
   /// @param evenness as in evening/evening.h. @throws SolverError, Cancelled
   TurnedMap turned_map(double tiles, double evenness, Execution& execution);
 
@@ -53,6 +55,7 @@ class TurnedMaps {
   std::shared_ptr<const mesh::Surface> surface_;
   ConeOptions options_;
   Lines lines_;
+  std::vector<int> chosen_;
   std::map<int, std::unique_ptr<const PlacedCones>> placed_;  // for half the tiles each
   std::mutex one_at_a_time_;
 };
