@@ -58,10 +58,17 @@ def test_every_edge_of_the_written_map_is_a_turn_and_a_whole_translation(make, t
     assert tile(turns=NAMES[turns]) == {"FINISHED"}
     found = [one for one in tilings(obj) if one["turns"] == turns]
     assert found and sum(len(one["cones"]) for one in found) > 0
-    which, shift, off = turned_jumps(obj, turns)
+    which, shift, off = regular_jumps(obj, turns)
     assert off.max() == 0
     assert np.array_equal(shift, np.round(shift))
     assert len(np.unique(which)) > 1
+
+
+def regular_jumps(obj, turns):
+    """`turned_jumps` but at the poles, which small parts have where no map that turns has the size of the others."""
+    poles = [pole for one in tilings(obj) for pole in one["poles"]]
+    is_regular = ~np.isin(edge_sides(obj)[0], poles).any(axis=1)
+    return tuple(values[is_regular] for values in turned_jumps(obj, turns))
 
 
 def test_sixth_turns_of_the_hexagonal_lattice():
@@ -304,10 +311,8 @@ def test_several_objects_have_one_size():
     select(one, other)
     assert tile(turns="QUARTER") == {"FINISHED"}
     for obj in (one, other):
-        (made,) = tilings(obj)
-        _, shift, off = turned_jumps(obj, 4)
-        is_regular = ~np.isin(edge_sides(obj)[0], made["poles"]).any(axis=1)
-        assert off[is_regular].max() == 0 and np.array_equal(shift[is_regular], np.round(shift[is_regular]))
+        _, shift, off = regular_jumps(obj, 4)
+        assert off.max() == 0 and np.array_equal(shift, np.round(shift))
     assert {made["turns"] for obj in (one, other) for made in tilings(obj)} == {1, 4}
     assert shown_scale(one) == shown_scale(other)
 
