@@ -139,7 +139,7 @@ def made_maps(obj, points, polygons, **options):
     smart = {"angle_limit": SMART_ANGLE, "island_margin": ISLAND_MARGIN}
     maps = {"smart": unwrapped(obj, "smart", bpy.ops.uv.smart_project, **smart)}
     for kind, evenness in DIAL.items():
-        bpy.ops.uv.holomorphic_tile(seams=kind == "tiling", evenness=evenness, **options)
+        bpy.ops.uv.holomorphic_tile(seams=kind == "tiling", evenness=evenness, turns="NONE", **options)
         maps[kind] = uv_maps.read_map(obj.data, uv_maps.MAIN_MAP)
     for kind, method in ("unwrap", "ANGLE_BASED"), ("stretch", "MINIMUM_STRETCH"):
         maps[kind] = unwrapped(obj, kind, bpy.ops.uv.unwrap, method=method, margin=ISLAND_MARGIN)

@@ -332,7 +332,7 @@ def test_a_higher_density_shows_more_squares_where_their_number_is_chosen():
 def test_a_form_that_is_alone_has_no_share(forms, dials):
     """Its amount would be a change of scale, which the density undoes."""
     layout, properties = Drawn(), module("operators.properties").MapProperties()
-    properties.main, properties.texture = "AUTOMATIC", "CHECKER"
+    properties.main, properties.texture, properties.turns = "AUTOMATIC", "CHECKER", "NONE"
     properties.form_count, layout.prop = forms, lambda _owner, name, **_options: layout.texts.append(name)
     properties.draw_options(layout, None)
     assert layout.texts.count("amounts") == dials
