@@ -42,9 +42,12 @@ def make(obj, coverings):
 
 
 def as_before(own, objects):
-    """The texture, averaged where one of the objects shows it so."""
+    """The texture, averaged where one of the objects shows it so, and it still can be."""
     for obj in objects:
         before = stored.parsed(obj.get(report.PROPERTY)).get("dials", {}).get("own") or {}
         if (before.get("kind"), before.get("name")) == (own.kind, own.name) and before.get("averaged", 1) != 1:
-            return user_texture.symmetric(own, before["averaged"])
+            try:
+                return user_texture.symmetric(own, before["averaged"])
+            except ValueError:
+                return own
     return own

@@ -4,6 +4,7 @@ import bpy
 import numpy as np
 import pytest
 from drawn_images import periodic_noise
+from drawn_panel import drawn
 from loaded_addon import module
 from scenes import mesh_object, run, sphere_arrays, stored_report, uv
 
@@ -223,3 +224,25 @@ def test_textures_of_ours_are_left_alone():
     assert symmetric.shown_turns(obj["holomorph_report"]) == 0 and make() == {"CANCELLED"}
     run(main="BALANCED")
     assert make() == {"CANCELLED"}
+
+
+def test_the_panel_offers_it():
+    """Where a texture shows its turns, and no longer when it is averaged."""
+    obj = ball()
+    noise()
+    tile()
+    told = "This texture shows its turns: seams are seen where the map turns"
+    layout = drawn(obj, width=2000)
+    assert told in layout.texts and "uv.holomorphic_make_symmetric" in layout.buttons
+    make()
+    layout = drawn(obj, width=2000)
+    assert told not in layout.texts and "uv.holomorphic_make_symmetric" not in layout.buttons
+
+
+def test_a_picture_that_became_wide_is_shown_as_it_is():
+    obj = ball()
+    noise()
+    tile()
+    make()
+    bpy.data.images["Noise"].scale(SIZE, SIZE // 2)
+    assert tile() == {"FINISHED"} and not groups(obj)
