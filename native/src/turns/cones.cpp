@@ -37,7 +37,7 @@ struct Round {
 constexpr Round kFromCurvature[] = {{1.2, 0.1}, {0.6, 0.15}, {0.3, 0.25}, {0.6, 0.5}, {0.3, 1}};
 constexpr Round kFromField[] = {{0.5, 0.3}, {0.3, 1}, {0.3, 1}};
 constexpr Round kFromLevel[] = {{0.6, 0.5}, {0.3, 1}, {0.15, 1}};
-constexpr double kLevels[] = {0.1, 0.3, 1};  // weights with which fields are pulled level
+constexpr double kLevels[] = {0.1, 1, 10};   // weights with which fields are pulled level
 constexpr unsigned kSeeds[] = {1, 2, 3, 4};  // of the starts from curvature
 
 double squared_distance(const Point& a, const Point& b) {
@@ -381,6 +381,8 @@ std::vector<Cones> find_cones(const mesh::Surface& surface, const ConeOptions& o
     report();
   }
   std::stable_sort(found.begin(), found.end(), [](const Cones& a, const Cones& b) { return a.cost < b.cost; });
+  const auto same = [](const Cones& a, const Cones& b) { return a.missing == b.missing; };
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());
   return found;
 }
 

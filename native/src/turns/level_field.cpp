@@ -17,6 +17,7 @@ constexpr double kLeast = 0.1, kMost = 10;  // weights of edges between the limi
 constexpr double kHeld = 1e6;               // weight of the direction at a line: it does not give way
 constexpr double kCancels = 0.3;            // of a side's length: two lines of a triangle that are no k-th turn apart
 constexpr double kUpright = 0.7;            // cosine
+constexpr int kPulls = 8;                   // steps, each with the same matrix
 
 Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -131,6 +132,40 @@ std::vector<Complex> level_field(const Net& net, const std::vector<Point>& point
     field[t] = held[t] != 0.0 ? held[t] : std::abs(z) > 0 ? z / std::abs(z) : Complex(1);
   }
   return field;
+}
+
+void pull_level(const Net& net, const std::vector<Point>& points, int k, const Along& along, double weight,
+                std::vector<double>& angle) {
+  const int count = net.triangle_count();
+  const Level level = level_directions(net, points, along);
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd pull(count);
+  for (int t = 0; t < count; ++t) {
+    pull[t] = weight * kScale * net.area[t] / net.whole_area * level.steepness[t];
+    entries.emplace_back(t, t, pull[t] + 1e-9);
+  }
+  for (int side = 0; side < net.side_count(); ++side) {
+    const int f = side / 3, g = net.twin[side] / 3;
+    if (net.twin[side] < side || f == g) continue;
+    const double w = dual_weight(net, side);
+    entries.emplace_back(f, f, w);
+    entries.emplace_back(g, g, w);
+    entries.emplace_back(std::max(f, g), std::min(f, g), -w);
+  }
+  Eigen::SparseMatrix<double> lower(count, count);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  solver::SparseCholesky factor;
+  factor.compute(lower, {});
+  Eigen::MatrixXd delta = Eigen::MatrixXd::Zero(count, 1);
+  for (int step = 0; step < kPulls; ++step) {
+    Eigen::MatrixXd b(count, 1);
+    for (int t = 0; t < count; ++t) {
+      const double off = k * (angle[t] + delta(t, 0) - std::arg(level.direction[t]));
+      b(t, 0) = pull[t] * (delta(t, 0) - std::sin(off) / k);
+    }
+    delta = factor.solve(b);
+  }
+  for (int t = 0; t < count; ++t) angle[t] += delta(t, 0);
 }
 
 std::vector<int> cones_of_field(const Net& net, const std::vector<Complex>& field, int k) {

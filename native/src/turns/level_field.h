@@ -28,6 +28,12 @@ Level level_directions(const Net& net, const std::vector<std::array<double, 3>>&
 std::vector<Complex> level_field(const Net& net, const std::vector<std::array<double, 3>>& points, int k,
                                  const Along& along, double weight);
 
+/// Turns directions, angles of u on the triangles, towards level, but for k-th turns: by the delta that lowers
+/// |d delta|^2 + weight times the integral of steepness sin(k (angle - level) / 2)^2, from 0 on. Continuous: what they
+/// turn by across edges and around vertices stays the same. @param angle #T, changed. @throws SolverError
+void pull_level(const Net& net, const std::vector<std::array<double, 3>>& points, int k, const Along& along,
+                double weight, std::vector<double>& angle);
+
 /// The cones of a field: how it turns on the way around a vertex. @return #V, k-th turns that are missing
 std::vector<int> cones_of_field(const Net& net, const std::vector<Complex>& field, int k);
 

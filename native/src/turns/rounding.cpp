@@ -74,7 +74,10 @@ NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& 
     }
   };
   MatrixXcd QQ = MatrixXcd::Zero(integers, integers);
-  MatrixXd QT = MatrixXd::Zero(integers, 2);
+  std::vector<const std::vector<double>*> targets{&frames.angle};
+  if (!frames.level.empty()) targets.push_back(&frames.level);
+  const Eigen::Index wanted_columns = 2 * std::ssize(targets);
+  MatrixXd QT = MatrixXd::Zero(integers, wanted_columns);
   double trace = 0;
   for (int side = 0; side < net.side_count(); ++side) {
     const int t = side / 3, a = net.tail[side], b = net.head[side];
@@ -83,7 +86,6 @@ NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& 
     for (int i = 0; i < 3; ++i) u += frames.scale[net.tail[3 * t + i]] / 3;
     const double scale = std::exp(u), bounded = std::max(scale, kLeastScale);
     const double c = net.cotangent[side] / (bounded * bounded);
-    const Complex wanted = scale * std::polar(1.0, -frames.angle[t]) * net.along[side];
     const Complex at_a = turned_by(space.lattice, space.corner_turn[side]);
     const Complex at_b = turned_by(space.lattice, space.corner_turn[Net::next(side)]);
     unknowns_.add_difference(a, b, c, std::conj(at_a) * at_b, entries);
@@ -92,13 +94,19 @@ NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& 
       add_right(a, column, -c * std::conj(at_a) * value);
       add_right(b, column, c * std::conj(at_b) * value);
     };
-    add_both(0, wanted);
-    add_both(1, Complex(0, 1) * wanted);
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(2 * i);
+      const Complex wanted = scale * std::polar(1.0, -(*targets[i])[t]) * net.along[side];
+      add_both(column, wanted);
+      add_both(column + 1, Complex(0, 1) * wanted);
+      for (SparseComplex::InnerIterator it(dq, side); it; ++it) {
+        const Complex product = c * std::conj(it.value()) * wanted;
+        QT(it.col(), column) += product.real();
+        QT(it.col(), column + 1) -= product.imag();
+      }
+    }
     for (SparseComplex::InnerIterator it(dq, side); it; ++it) {
-      add_both(2 + it.col(), it.value());
-      const Complex product = c * std::conj(it.value()) * wanted;
-      QT(it.col(), 0) += product.real();
-      QT(it.col(), 1) -= product.imag();
+      add_both(wanted_columns + it.col(), it.value());
       for (SparseComplex::InnerIterator other(dq, side); other; ++other)
         QQ(it.col(), other.col()) += c * std::conj(it.value()) * other.value();
     }
@@ -107,14 +115,14 @@ NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& 
   Eigen::SparseMatrix<double> lower(count, count);
   lower.setFromTriplets(entries.begin(), entries.end());
   solving_->factor.compute(lower, {});
-  rhs_.resize(count, 2 + integers);
+  rhs_.resize(count, wanted_columns + integers);
   rhs_.setFromTriplets(on_right.begin(), on_right.end());
-  const MatrixXd y = solving_->factor.solve(MatrixXd(rhs_.leftCols(2)));
+  const MatrixXd y = solving_->factor.solve(MatrixXd(rhs_.leftCols(wanted_columns)));
   g_ = QT - (rhs_.transpose() * y).bottomRows(integers);
   MatrixXd S = QQ.real();
   for (Eigen::Index first = 0; first < integers; first += kColumns) {
     const Eigen::Index some = std::min<Eigen::Index>(kColumns, integers - first);
-    const MatrixXd x = solving_->factor.solve(MatrixXd(rhs_.middleCols(2 + first, some)));
+    const MatrixXd x = solving_->factor.solve(MatrixXd(rhs_.middleCols(wanted_columns + first, some)));
     S.middleCols(first, some) -= (rhs_.transpose() * x).bottomRows(integers);
   }
   S = (0.5 * (S + S.transpose())).eval();
@@ -129,6 +137,24 @@ NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& 
 
 std::vector<NearestMap::Rounded> NearestMap::round(Complex factor) const {
   if (B_.size() == 0) return {{0, factor, lattice::IntegerVector(0)}};
+  std::vector<std::vector<Rounded>> found;
+  std::size_t most = 0;
+  for (Eigen::Index first = 0; first < g_.cols(); first += 2) {
+    found.push_back(rounded(factor, g_.middleCols(first, 2)));
+    most = std::max(most, found.back().size());
+  }
+  std::vector<Rounded> result;
+  for (std::size_t i = 0; i < most; ++i) {
+    for (std::size_t target = 0; target < found.size(); ++target) {
+      if (i >= found[target].size()) continue;
+      result.push_back(found[target][i]);
+      result.back().is_level = target == 1;
+    }
+  }
+  return result;
+}
+
+std::vector<NearestMap::Rounded> NearestMap::rounded(Complex factor, const MatrixXd& g) const {
   const lattice::ReducedBasis reduced = lattice::reduce(B_);
   const linear::Cholesky<MatrixXd> normal(B_.transpose() * B_);
   std::vector<Rounded> found;
@@ -138,7 +164,7 @@ std::vector<NearestMap::Rounded> NearestMap::round(Complex factor) const {
     for (int j = 0; j < angles; ++j) {
       const double turned = turns_ ? kTurned * (2.0 * j / (kAngles - 1) - 1) : 0;
       const Complex f = factor * std::polar(size, turned);
-      const VectorXd z0 = normal.solve(VectorXd(g_ * Eigen::Vector2d(f.real(), f.imag())));
+      const VectorXd z0 = normal.solve(VectorXd(g * Eigen::Vector2d(f.real(), f.imag())));
       const lattice::IntegerVector z = lattice::nearest_plane(reduced, B_ * z0);
       const double error =
           (B_ * (z0 - z.cast<double>())).squaredNorm() / (std::norm(f) * area_) + kOtherSize * ln_size * ln_size;
@@ -153,8 +179,8 @@ std::vector<NearestMap::Rounded> NearestMap::round(Complex factor) const {
   return found;
 }
 
-VectorXcd NearestMap::functions(const Rounded& rounded) const {
-  VectorXd b = rhs_.leftCols(2) * Eigen::Vector2d(rounded.factor.real(), rounded.factor.imag());
+VectorXcd NearestMap::functions(const Rounded& rounded, bool is_level) const {
+  VectorXd b = rhs_.middleCols(is_level ? 2 : 0, 2) * Eigen::Vector2d(rounded.factor.real(), rounded.factor.imag());
   if (rounded.z.size() > 0) b -= rhs_.rightCols(rounded.z.size()) * rounded.z.cast<double>();
   const std::lock_guard lock(solving_->one_at_a_time);
   const evening::Function y = unknowns_.spread(solving_->factor.solve(b).col(0));

@@ -26,26 +26,30 @@ class NearestMap {
     double error = 0;
     Complex factor;
     lattice::IntegerVector z;
+    bool is_level = false;  ///< nearest to the frames that are pulled level
   };
-  /// The best of a few sizes and angles near a factor, each whole numbers once, the nearest first.
+  /// The best of a few sizes and angles near a factor, each whole numbers once, the nearest first; in turn for the
+  /// frames and for those that are pulled level.
   std::vector<Rounded> round(Complex factor) const;
 
-  /// #V, y in the plane: x(corner) is this turned, and the offset
-  Eigen::VectorXcd functions(const Rounded& rounded) const;
+  /// #V, y in the plane: x(corner) is this turned, and the offset. @param is_level nearest to the frames pulled level
+  Eigen::VectorXcd functions(const Rounded& rounded, bool is_level) const;
 
  private:
   const evening::Unknowns& unknowns_;
   const bool turns_;
   const double area_;  // of the surface
-  Eigen::SparseMatrix<double>
-      rhs_;  // #unknowns x (2 + #z): for f = 1 and f = i, z = 0, and by what it falls for each z
+  std::vector<Rounded> rounded(Complex factor, const Eigen::MatrixXd& g) const;
+
+  // #unknowns x (2 #targets + #z): for f = 1 and f = i, z = 0, and by what it falls for each z
+  Eigen::SparseMatrix<double> rhs_;
   struct Solving {
     solver::SparseCholesky factor;
     std::mutex one_at_a_time;
   };
   std::unique_ptr<Solving> solving_ = std::make_unique<Solving>();
   Eigen::MatrixXd B_;  // #z x #z
-  Eigen::MatrixXd g_;  // #z x 2: B^T B z0(f) = g (Re f, Im f)
+  Eigen::MatrixXd g_;  // #z x 2 #targets: B^T B z0(f) = g (Re f, Im f); the frames, and those pulled level
 };
 
 /// The factor at which rows are level in the mean where the surface is steep, of modulus 1.

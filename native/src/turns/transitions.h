@@ -14,6 +14,7 @@ namespace holomorph::turns {
 struct Frames {
   Eigen::VectorXd scale;      ///< #V, u
   std::vector<double> angle;  ///< #T, theta
+  std::vector<double> level;  ///< #T, theta pulled level, which whole numbers are rounded for as well; empty for none
   /// #sides: across a cut edge x' = R^turn x + translation, from the triangle to the twin's; -1 for an edge that is not
   /// cut
   std::vector<int> turn;

@@ -11,6 +11,7 @@
 #include "tiling/greens/coarse_level.h"
 #include "turns/chosen_cones.h"
 #include "turns/rounding.h"
+#include "turns/upright.h"
 
 namespace holomorph::turns {
 namespace {
@@ -18,8 +19,10 @@ namespace {
 using Eigen::VectorXcd;
 
 constexpr int kFewTriangles = 4000, kMoreTriangles = 20'000;  // of the levels on which cones are searched for
-constexpr int kCompared = 3;                                  // of the cones found on the fewer
-constexpr int kTries = 3;                                     // of the nearest whole numbers
+constexpr int kCompared = 5;                                  // of the cones found on the fewer
+constexpr double kLevel = 0.1;                                // of what does not stand upright, beside the strain
+constexpr double kPull = 3;                                   // with which frames are turned level, see pull_level
+constexpr int kTries = 4;                                     // of the nearest whole numbers
 // Parts of the area that are wrong: then other whole numbers do not help, or cones are not worth being evened.
 constexpr double kHopeless = 2e-3, kHopelessCones = 0.1;
 constexpr int kManyTriangles = 100'000;  // from which the first one that flips none is taken
@@ -131,12 +134,18 @@ class PlacedCones {
   // The best of the maps by the nearest whole numbers.
   Judged best_map(double tiles, double evenness, Execution& execution) const;
   // What cones are compared by, of the map by their nearest whole numbers: the wrong area, if that is hopeless, and the
-  // energy as in evening/evening.h.
-  std::pair<double, double> strain(double tiles, double evenness, Execution& execution) const;
+  // energy as in evening/evening.h, with that of rows that are not level.
+  std::pair<double, double> badness(double tiles, double evenness, Execution& execution) const;
+  // Turns the UVs of polygons until v runs up on most.
+  void turn_upright(TurnedMap& map, const Along& along) const;
 
  private:
   std::vector<NearestMap::Rounded> nearest(double tiles) const;
   uv::UvArray coordinates(const VectorXcd& y, const NearestMap::Rounded& rounded) const;
+  // The frames turned as one to be level, with those that are pulled.
+  Frames levelled(Frames frames, const ConeOptions& options) const;
+  // The strain of a map in the plane, with what is minded of rows that are not level.
+  double strain(const uv::UvArray& laid, double evenness, Execution& execution) const;
   VectorXcd evened(VectorXcd y, const NearestMap::Rounded& rounded, double evenness, Execution& execution) const;
   evening::Kept kept() const;
 
@@ -146,7 +155,7 @@ class PlacedCones {
   Frames frames_;
   TurnedSpace space_;
   NearestMap nearest_;
-  Complex level_;  // the factor at which rows are level
+  std::optional<Along> along_;
 };
 
 PlacedCones::PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options,
@@ -154,11 +163,24 @@ PlacedCones::PlacedCones(std::shared_ptr<const mesh::Surface> surface, const Con
     : surface_(std::move(surface)),
       net_(*surface_),
       missing_(std::move(missing)),
-      frames_(make_frames(*surface_, net_, options.k, missing_)),
+      frames_(levelled(make_frames(*surface_, net_, options.k, missing_), options)),
       space_(make_space(net_, frames_, options.k, missing_, false)),
-      nearest_(net_, frames_, space_, true) {
-  level_ =
-      options.along ? level_factor(net_, frames_, options.k, surface_->polygons.vertices, *options.along) : Complex(1);
+      nearest_(net_, frames_, space_, true),
+      along_(options.along) {}
+
+Frames PlacedCones::levelled(Frames frames, const ConeOptions& options) const {
+  if (!options.along) return frames;
+  const std::vector<std::array<double, 3>>& points = surface_->polygons.vertices;
+  const double turn = std::arg(level_factor(net_, frames, options.k, points, *options.along));
+  for (double& angle : frames.angle) angle -= turn;
+  frames.level = frames.angle;
+  pull_level(net_, points, options.k, *options.along, kPull, frames.level);
+  return frames;
+}
+
+double PlacedCones::strain(const uv::UvArray& laid, double evenness, Execution& execution) const {
+  const double off = along_ ? off_level(*surface_, net_, laid, space_.lattice.k, *along_) : 0;
+  return evening::strain(*surface_, laid, kept(), evenness, execution) + kLevel * off;
 }
 
 PlacedCones::PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, const Lines& lines,
@@ -168,7 +190,7 @@ PlacedCones::PlacedCones(std::shared_ptr<const mesh::Surface> surface, const Con
       frames_(lined_frames(*surface_, net_, options, missing_, execution)),
       space_(make_space(net_, frames_, options.k, missing_, lines.are_whole)),
       nearest_(net_, frames_, space_, false),
-      level_(1) {}
+      along_(options.along) {}
 
 evening::Kept PlacedCones::kept() const {
   evening::Kept kept;
@@ -197,19 +219,19 @@ VectorXcd PlacedCones::evened(VectorXcd y, const NearestMap::Rounded& rounded, d
 }
 
 std::vector<NearestMap::Rounded> PlacedCones::nearest(double tiles) const {
-  return nearest_.round(std::sqrt(tiles / net_.whole_area) * level_);
+  return nearest_.round(std::sqrt(tiles / net_.whole_area));
 }
 
-std::pair<double, double> PlacedCones::strain(double tiles, double evenness, Execution& execution) const {
+std::pair<double, double> PlacedCones::badness(double tiles, double evenness, Execution& execution) const {
   const NearestMap::Rounded rounded = nearest(tiles)[0];
-  VectorXcd y = nearest_.functions(rounded);
+  VectorXcd y = nearest_.functions(rounded, false);
   const auto laid = [&] { return in_plane(space_.lattice, coordinates(y, rounded)); };
   double wrong = wrong_area(*surface_, net_, laid(), space_.lattice.k, missing_);
   if (wrong <= kHopelessCones * net_.whole_area) {
     wrong = 0;
     y = evened(y, rounded, evenness, execution);
   }
-  return {wrong, evening::strain(*surface_, laid(), kept(), evenness, execution)};
+  return {wrong, strain(laid(), evenness, execution)};
 }
 
 PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Execution& execution) const {
@@ -224,11 +246,12 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Executi
   for (int i = 0; i < tries && (compares || best.bad.first > 0); ++i) {
     if (i > 0 && best.bad.first > hopeless) break;
     execution.stage("evening", 0.2 + 0.8 * i / tries, 0.2 + 0.8 * (i + 1) / tries);
-    const VectorXcd y = nearest_.functions(nearest[i]);
-    uv::UvArray uv = coordinates(evened(y, nearest[i], evenness, execution), nearest[i]);
+    const VectorXcd y = nearest_.functions(nearest[i], false);  // conformal; evening may begin from a map more level
+    const VectorXcd begin = nearest[i].is_level && evenness > 0 ? nearest_.functions(nearest[i], true) : y;
+    uv::UvArray uv = coordinates(evened(begin, nearest[i], evenness, execution), nearest[i]);
     const uv::UvArray laid = in_plane(space_.lattice, uv);
     const std::pair<double, double> bad{wrong_area(*surface_, net_, laid, space_.lattice.k, missing_),
-                                        evening::strain(*surface_, laid, kept(), evenness, execution)};
+                                        strain(laid, evenness, execution)};
     if (!(bad < best.bad)) continue;
     const std::vector<Jump> jumps = jumps_of(*surface_, net_, frames_, space_, nearest[i].z);
     best = {{std::move(uv), coordinates(y, nearest[i]), jumps, {}, {}}, bad};
@@ -239,6 +262,31 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Executi
     best.map.missing.push_back(missing_[v]);
   }
   return best;
+}
+
+void PlacedCones::turn_upright(TurnedMap& map, const Along& along) const {
+  const std::vector<int> s =
+      upright_turns(*surface_, net_, in_plane(space_.lattice, map.uv), space_.lattice.k, along, frames_.turn);
+  const auto power = [&](int t) { return space_.lattice.power(s[t]); };
+  for (uv::UvArray* uv : {&map.uv, &map.before}) {
+    const uv::UvArray as_given = *uv;
+    for (int t = 0; t < net_.triangle_count(); ++t) {
+      for (const int c : surface_->triangle_corners[t])
+        uv->row(c) = (power(t).cast<double>() * as_given.row(c).transpose()).transpose();
+    }
+  }
+  std::vector<Jump> own = std::exchange(map.jumps, {});
+  for (int side = 0; side < net_.side_count(); ++side) {
+    const int back = net_.twin[side], edge = net_.edge[side];
+    if (back < 0 || net_.tail[side] != surface_->edges[edge][0]) continue;
+    const auto known = std::ranges::lower_bound(own, edge, {}, &Jump::edge);
+    const Jump before = known != own.end() && known->edge == edge ? *known : Jump{edge};
+    const Eigen::Matrix<std::int64_t, 2, 1> by(before.translation[0], before.translation[1]);
+    const Eigen::Matrix<std::int64_t, 2, 1> moved = power(back / 3).cast<std::int64_t>() * by;
+    const int k = space_.lattice.k, turn = ((before.turn + s[back / 3] - s[side / 3]) % k + k) % k;
+    if (turn != 0 || !moved.isZero()) map.jumps.push_back({edge, turn, {moved[0], moved[1]}});
+  }
+  std::ranges::sort(map.jumps, {}, &Jump::edge);
 }
 
 namespace {
@@ -259,7 +307,7 @@ std::vector<int> cones_of(const std::shared_ptr<const mesh::Surface>& surface, c
   for (const Cones& cones : found) {
     execution.report(1);
     const PlacedCones placed(coarse.surface, wanted, cones.missing);
-    const std::pair<double, double> strain = placed.strain(wanted.tiles, evening::kUsualEvenness, execution);
+    const std::pair<double, double> strain = placed.badness(wanted.tiles, evening::kUsualEvenness, execution);
     if (best == nullptr || strain < least) least = strain, best = &cones;
   }
   return carried(*surface, fine,
@@ -300,12 +348,15 @@ TurnedMap TurnedMaps::turned_map(double tiles, double evenness, Execution& execu
   const int first = are_chosen ? 0 : std::clamp(static_cast<int>(std::lround(std::log2(times))), 0, kMostLevels);
   const int last = first + (are_chosen ? 0 : kFurtherApart);
   PlacedCones::Judged best;
+  const PlacedCones* winner = nullptr;
   for (int level = first; level <= last && best.bad.first > 0; ++level) {
-    PlacedCones::Judged other = placed(level, execution).best_map(tiles, evenness, execution);
+    const PlacedCones& tried = placed(level, execution);
+    PlacedCones::Judged other = tried.best_map(tiles, evenness, execution);
     const bool helps = other.bad.first < kHelps * best.bad.first;
-    if (other.bad < best.bad) best = std::move(other);
+    if (other.bad < best.bad) best = std::move(other), winner = &tried;
     if (!helps) break;
   }
+  if (winner && options_.along) winner->turn_upright(best.map, *options_.along);
   execution.finish();
   return std::move(best.map);
 }

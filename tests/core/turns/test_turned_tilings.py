@@ -127,9 +127,10 @@ def test_cones_are_apart_and_nothing_is_flipped(turns, mesh, tiles):
 
 
 def test_a_poor_map_that_turns_gives_way_to_one_that_is_shifted():
-    """On twenty faces: half turns cost 2.3 there, poles 0.06. Its jumps are symmetries of the texture, too."""
+    """On twenty faces: half turns cost 2.3 there, poles 0.06, and rows that are not level 0.5. Its jumps are symmetries
+    of the texture, too."""
     made = automatic_map(surface_of(families.geodesic_sphere(1)), main="seamless", turns=2)
-    assert made.kind == "tiling" and made.turns == 1 and made.cost < 0.1
+    assert made.kind == "tiling" and made.turns == 1 and made.cost < 0.6
 
 
 @pytest.mark.parametrize(("radius", "turns"), [(4.0, 1), (1.5, 4)])
