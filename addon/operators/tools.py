@@ -29,7 +29,8 @@ class HOLOMORPH_OT_restore_materials(AtOnce, bpy.types.Operator):
 
 class HOLOMORPH_OT_heat(AtOnce, bpy.types.Operator):
     """Write how the active UV map distorts, as attributes of the faces of the selected meshes: "Holomorphic Density",
-    the binary logarithm of UV area per surface area over its median, and "Holomorphic Angle", s1 / s2"""
+    the binary logarithm of UV area per surface area over its median, "Holomorphic Angle", s1 / s2, and "Holomorphic
+    Direction", degrees from up"""
 
     bl_idname = "uv.holomorphic_heat"
     bl_label = "Holomorphic Heat Maps"

@@ -39,6 +39,10 @@ ANGLE = Scale(
     ((0.90, 0.89, 0.86), (0.95, 0.80, 0.45), (0.91, 0.47, 0.28), (0.68, 0.16, 0.35), (0.28, 0.05, 0.33)),
     ((0.0, "1"), (0.316, "1.1"), (0.548, "1.3"), (0.775, "1.6"), (1.0, "2")),
 )
+DIRECTION = Scale(
+    ((0.90, 0.89, 0.86), (0.95, 0.80, 0.45), (0.91, 0.47, 0.28), (0.58, 0.22, 0.48), (0.13, 0.27, 0.60)),
+    ((0.0, "upright"), (0.25, "45"), (0.5, "sideways"), (0.75, "135"), (1.0, "upside down")),
+)
 
 
 def density_places(octaves):
@@ -113,6 +117,8 @@ def places_and_scale(found, quantity):
     """((#F,) places on the bar, the `Scale`)."""
     if quantity == "DENSITY":
         return density_places(found.density), DENSITY
+    if quantity == "DIRECTION":
+        return found.direction / 180, DIRECTION
     return angle_places(found.angle), ANGLE
 
 
@@ -149,4 +155,6 @@ def draw_legend(context, objects, quantity):
 def _title(view, quantity):
     if quantity == "DENSITY":
         return f"{view.map_name}: density of the texture, size range {view.found.size_text}"
+    if quantity == "DIRECTION":
+        return f"{view.map_name}: {100 * view.found.upright_part:.0f} % of the steep faces upright"
     return f"{view.map_name}: angle distortion {view.found.mean_angle:.4f}"

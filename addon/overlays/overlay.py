@@ -16,6 +16,7 @@ QUANTITIES = (
     ("NONE", "Off", "Show no heat map"),
     ("DENSITY", "Density", "Show where the texture is denser or coarser than the median, by UV area"),
     ("ANGLE", "Angle Distortion", "Show where squares become rhombi or rectangles: s1 / s2, 1 where they stay squares"),
+    ("DIRECTION", "Direction", "Show where the texture leans, lies on its side or stands on its head: degrees from up"),
 )
 
 _handles = []

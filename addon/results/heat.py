@@ -11,7 +11,7 @@ from ..native import holomorph
 from ..scene import mesh_io, uv_maps
 from . import report, stored
 
-DENSITY, ANGLE = "Holomorphic Density", "Holomorphic Angle"  # attributes
+DENSITY, ANGLE, DIRECTION = "Holomorphic Density", "Holomorphic Angle", "Holomorphic Direction"  # attributes
 
 
 def is_possible(obj):
@@ -35,6 +35,7 @@ def write(obj):
     _, found = measured(obj.data, obj.matrix_world.to_3x3())
     mesh_io.write_face_values(obj.data, DENSITY, found.density)
     mesh_io.write_face_values(obj.data, ANGLE, found.angle)
+    mesh_io.write_face_values(obj.data, DIRECTION, found.direction)
     return found
 
 

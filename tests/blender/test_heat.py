@@ -62,6 +62,20 @@ def test_the_objects_scale_counts():
     assert np.allclose(values(obj, heat.ANGLE), 2, rtol=1e-5)
 
 
+@pytest.mark.parametrize("degrees", [0, 30, 90, 180])
+def test_the_direction_is_that_to_the_vertical(degrees):
+    """On a wall; a floor has none."""
+    obj = grid()
+    obj.rotation_euler = (np.pi / 2, np.radians(degrees), 0)
+    bpy.context.view_layer.update()
+    heat_maps()
+    assert np.allclose(values(obj, heat.DIRECTION), degrees, atol=1e-3)
+    obj.rotation_euler = (0, 0, np.radians(degrees))
+    bpy.context.view_layer.update()
+    heat_maps()
+    assert not values(obj, heat.DIRECTION).any()
+
+
 def test_where_it_cannot_be_it_says_why():
     torus()
     with pytest.raises(RuntimeError, match="Select a mesh with a UV map"):
@@ -99,7 +113,7 @@ def test_an_attribute_of_that_name_is_replaced():
 
 
 def test_scales_begin_and_end_with_their_colours():
-    for scale in (scales.DENSITY, scales.ANGLE):
+    for scale in (scales.DENSITY, scales.ANGLE, scales.DIRECTION):
         places = np.array([-1, 0, 1, 2])
         assert np.allclose(scale.colours(places), [scale.stops[0]] * 2 + [scale.stops[-1]] * 2)
     assert np.allclose(scales.density_places(np.array([-4.0, 0, 4])), [0, 0.5, 1])

@@ -13,6 +13,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from ..core.array_types import Integers, Reals
+from .direction import UPRIGHT, turned
 
 MOST_OCTAVES = 16.0  # a density beyond is one of a collapsed polygon
 COLLAPSED = 1e3  # s1 / s2 of a collapsed polygon
@@ -33,13 +34,16 @@ class Polygons(Protocol):
 class Distortion:
     """s1 >= s2 are the singular values of the map of each triangle; a polygon has the mean of its triangles by area.
 
-    Finite everywhere: polygons without area have the density of the median and angle 1.
+    Finite everywhere: polygons without area have the density of the median and angle 1, and those that are not steep
+    the direction 0.
     """
 
     density: Reals  # (#F,) log2 of UV area per surface area (s1 s2) over its median by area
     angle: Reals  # (#F,) s1 / s2
     size_range: float  # of the sides of squares: root of the 95 % over 5 % quantile of the density, by area
     mean_angle: float  # by area, each polygon with `MOST_ANGLE` at most
+    direction: Reals  # (#F,) degrees between the gradient of v and what is up, see `Direction`
+    upright_part: float  # of the steep area
 
     @property
     def size_text(self) -> str:
@@ -65,11 +69,12 @@ def fans(face_offsets: Integers) -> tuple[Integers, Integers]:
     return np.stack([start, start + step, start + step + 1], axis=1), polygon
 
 
-def measure(mesh: Polygons, uv: Reals) -> Distortion:
-    """The `Distortion` of a (#C, 2) map of the mesh's polygon corners."""
+def measure(mesh: Polygons, uv: Reals, up: str = "Z") -> Distortion:
+    """The `Distortion` of a (#C, 2) map of the mesh's polygon corners. up : the axis that points up, "Y" or "Z"."""
     corners, polygon = fans(mesh.face_offsets)
-    g11, g12, g22, area = _metric(mesh.vertices[mesh.corner_vertices[corners]])
-    h11, h12, h22, uv_area = _metric(uv.astype(np.float64)[corners])
+    points, at = mesh.vertices[mesh.corner_vertices[corners]], uv.astype(np.float64)[corners]
+    g11, g12, g22, area = _metric(points)
+    h11, h12, h22, uv_area = _metric(at)
     count = len(mesh.face_offsets) - 1
     face_area, face_uv = (np.bincount(polygon, values, count) for values in (area, uv_area))
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -81,7 +86,18 @@ def measure(mesh: Polygons, uv: Reals) -> Distortion:
         low, median, high = quantiles(density, face_area, (LOW, 0.5, HIGH))
         octaves = np.clip(np.nan_to_num(np.log2(density / median), nan=0.0), -MOST_OCTAVES, MOST_OCTAVES)
     mean = np.average(np.minimum(angle, MOST_ANGLE), weights=face_area) if face_area.any() else 1.0
-    return Distortion(octaves, angle, float(np.sqrt(high / low)) if low > 0 else np.inf, float(mean))
+    size_range = float(np.sqrt(high / low)) if low > 0 else np.inf
+    return Distortion(octaves, angle, size_range, float(mean), *_direction(points, at, up, polygon, count))
+
+
+def _direction(points, uv, up, polygon, count):
+    """`Distortion.direction` and `upright_part` of triangles, of these of `count` polygons."""
+    degrees, area, is_steep = turned(points, uv, up)
+    steep = area * is_steep
+    of_face = np.bincount(polygon, steep, count)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        direction = np.where(of_face > 0, np.bincount(polygon, steep * degrees, count) / of_face, 0.0)
+    return direction, float(np.average(degrees < UPRIGHT, weights=steep)) if steep.any() else 1.0
 
 
 def worst_places(mesh: Polygons, uv: Reals, poles: Integers) -> dict[str, WorstPlace]:

@@ -1,0 +1,139 @@
+"""Which way is up on a map: how a texture is turned on the steep part of a surface."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ..core import arrays
+from ..core.array_types import Complexes, Reals
+from ..core.value import Value
+
+AXIS = {"Y": 1, "Z": 2}  # of positions, by `Surface.up`
+STEEP = 0.35  # least sine of the angle between the normal of a triangle and the vertical
+UPRIGHT, SIDEWAYS, UPSIDE_DOWN = 15.0, 20.0, 160.0  # degrees: from up at most, from a right angle at most, at least
+
+SAID = 0.1  # part of the area
+FRACTIONS = {
+    "a tenth": 0.1,
+    "a fifth": 0.2,
+    "a quarter": 0.25,
+    "a third": 1 / 3,
+    "half": 0.5,
+    "two thirds": 2 / 3,
+    "three quarters": 0.75,
+    "almost all": 0.95,
+}
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Direction(Value):
+    """How far a map turns a texture. Read-only arrays.
+
+    angle : (#T,) degrees between the gradient of v and what is up on the triangle, up to 180; for a texture that looks
+        the same after k-th parts of a full turn, to the nearest of these
+    steep : (#T,) area of each triangle that is steep, so that something is up on it; 0 of others
+    area : of all triangles
+    up : the axis that points up, see `Surface.up`
+    turns : k; 1 where the texture has an up
+    """
+
+    angle: Reals
+    steep: Reals
+    area: float
+    up: str
+    turns: int
+
+    @classmethod
+    def of(cls, triangulation: object, uv: Reals, up: str, turns: int = 1) -> Direction:
+        """That of (#C, 2) UVs on a native surface with positions."""
+        points, corners = triangulation.vertices[triangulation.triangles], uv[triangulation.triangle_corners]
+        angle, area, is_steep = turned(points, corners, up)
+        made = cls(*map(arrays.frozen, (angle, area * is_steep)), float(area.sum()), up, 1)
+        return made if turns == 1 else made.under(turns)
+
+    def under(self, turns: int) -> Direction:
+        """That of the same map under a texture that looks the same after k-th parts of a full turn."""
+        period = 360 / turns
+        angle = np.abs(self.angle - period * np.round(self.angle / period))
+        return replace(self, angle=arrays.frozen(angle), turns=turns)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Direction]) -> Direction:
+        """That of several maps together, the triangles of one after those of the other."""
+        angle, steep = (np.concatenate([getattr(each, name) for each in parts]) for name in ("angle", "steep"))
+        area = sum(each.area for each in parts)
+        return cls(arrays.frozen(angle), arrays.frozen(steep), area, parts[0].up, parts[0].turns)
+
+    def of_copy(self, scale: float) -> Direction:
+        """That of the same map on a copy of the surface, whose lengths are multiplied by `scale`."""
+        return replace(self, steep=arrays.frozen(self.steep * scale**2), area=self.area * scale**2)
+
+    @cached_property
+    def steep_part(self) -> float:
+        """Part of the area that is steep."""
+        return float(self.steep.sum()) / self.area if self.area > 0 else 0.0
+
+    @cached_property
+    def upright_part(self) -> float:
+        """Part of the steep area where the texture stands upright, within 15 degrees; 1 where nothing is steep."""
+        return self._part(self.angle < UPRIGHT) if self.steep_part > 0 else 1.0
+
+    @cached_property
+    def sideways_part(self) -> float:
+        """Part of the steep area where it lies on its side, within 20 degrees."""
+        return self._part(np.abs(self.angle - 90) <= SIDEWAYS)
+
+    @cached_property
+    def upside_down_part(self) -> float:
+        """Part of the steep area where it stands on its head, within 20 degrees."""
+        return self._part(self.angle >= UPSIDE_DOWN)
+
+    @property
+    def words(self) -> str:
+        """How much of the steep area is upside down, or lies on its side, such as "a fifth is upside down"; "" where
+        that is less than a tenth of the whole area."""
+        parts = {"upside down": self.upside_down_part, "sideways": self.sideways_part}
+        name = max(parts, key=lambda name: parts[name])
+        if parts[name] * self.steep_part < SAID:
+            return ""
+        return f"{min(FRACTIONS, key=lambda text: abs(FRACTIONS[text] - parts[name]))} is {name}"
+
+    def _part(self, flags):
+        return float(self.steep[flags].sum() / self.steep.sum()) if self.steep_part > 0 else 0.0
+
+    def _facts(self):
+        parts = {"upright": self.upright_part, "sideways": self.sideways_part, "upside down": self.upside_down_part}
+        return [f"{100 * part:.2g} % {name}" for name, part in parts.items()]
+
+
+def uphill(triangulation: object, uv: Reals, axis: Sequence[float]) -> Complexes:
+    """(#T,) gradients in the plane u + i v of the coordinate along an axis in space, times the area of the triangle in
+    the plane, negative where that is flipped."""
+    corners = (uv @ [1, 1j])[triangulation.triangle_corners]
+    across = 0.5j * (np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1))
+    return (across * (triangulation.vertices[triangulation.triangles] @ axis)).sum(axis=1)
+
+
+def turned(points: Reals, uv: Reals, up: str) -> tuple[Reals, Reals, Reals]:
+    """((#T,) degrees between the gradient of v and what is up, areas, whether it is steep and v has a gradient) of
+    triangles with (#T, 3, 3) positions and (#T, 3, 2) UVs."""
+    first, second = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
+    a, b, c = (np.einsum("ij,ij->i", x, y) for x, y in ((first, first), (first, second), (second, second)))
+    squared = np.maximum(a * c - b * b, 0.0)  # of twice the area
+    axis, v = AXIS[up], uv[..., 1] - uv[:, :1, 1]
+
+    def product(p, q):
+        """That of the gradients, times `squared`, of functions with these differences along the two sides."""
+        return p[0] * q[0] * c - (p[0] * q[1] + p[1] * q[0]) * b + p[1] * q[1] * a
+
+    rises, heights = (v[:, 1], v[:, 2]), (first[:, axis], second[:, axis])
+    steepness, length = product(heights, heights), product(rises, rises)
+    is_steep = (steepness > STEEP**2 * squared) & (length > 0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        cosine = product(rises, heights) / np.sqrt(steepness * length)
+    angle = np.degrees(np.arccos(np.clip(np.nan_to_num(cosine, nan=1.0), -1, 1)))
+    return angle, np.sqrt(squared) / 2, is_steep
