@@ -35,6 +35,7 @@ TURNED = CORE + "turns/test_turned_tilings.py"
 LINES = CORE + "turns/test_turned_lines.py"
 ASKED = CORE + "turns/test_asked_turns.py"
 CHOSEN = CORE + "turns/test_chosen_cones.py"
+DIRECTION = CORE + "uv/test_direction.py"
 GLB = CORE + "files/test_gltf.py"
 
 
@@ -264,6 +265,13 @@ MUTATIONS = (
     )
     | of(ROOM + "turns/rounding.cpp", ("turned-sizes", "kOtherSize = 1;", "kOtherSize = 0;", TURNED))
     | of(ROOM + "turns/chosen_cones.cpp", ("cones-sum", "left != 0 && holes.empty()", "false", CHOSEN))
+    | of(ROOM + "islands/merge_islands.cpp", ("held-islands", "cos(5 *", "cos(150 *", DIRECTION))
+    | of(ROOM + "turns/upright.cpp", ("upright-turns", "sine : sine;", "sine : -sine;", DIRECTION))
+    | of(
+        PACKAGE + "quality/direction.py",
+        ("direction-steep", "STEEP = 0.35", "STEEP = 0.2", DIRECTION),
+        ("direction-turns", "period = 360 / turns", "period = 180 / turns", DIRECTION),
+    )
     | of(ROOM + "turns/turned_space.cpp", ("lines-parts", "% 2 == 0 ? 1 : 0;", "% 2 == 0 ? 0 : 1;", LINES))
     | of(
         ROOM + "evening/unknowns.cpp",

@@ -53,7 +53,7 @@ def _packed(context, mesh, joined, islands, options):
         if margin > MOST_MARGIN:
             break
         uv_maps.overwrite_map(mesh, joined, uv_maps.BAKE_MAP, uv)
-        packing.pack(context, margin)
+        packing.pack(context, margin, rotate=True)
         found = uv_maps.read_map(mesh, uv_maps.BAKE_MAP)
         factor = ratio(joined, found) / before  # the packer's, of islands with their margins
         side = _side(options.texels, before * factor) if factor > 0 else 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Islands in the UV square without overlap, by Blender's own packer, turned as it likes."""
+"""Islands in the UV square without overlap, by Blender's own packer."""
 
 import math
 from contextlib import ExitStack, contextmanager
@@ -17,13 +17,14 @@ MIDDLE = 0.5  # the middle of the UV square
 
 def packed(context, mapped):
     """The `mapped.MappedObject` with its islands as Blender packs them, all by the same factor, and the density that
-    its map has. They fill the UV square, unless the options say a density."""
+    its map has. They fill the UV square, unless the options say a density, and stay upright where they are to be so."""
     options, parts = mapped.options, [part.surface for part in mapped.solved.done]
     _, shelves = next(replace(mapped, options=replace(options, density=1.0, per_length=0.0)).maps())
     corners, side_by_side = np.concatenate([part.corner_index for part in parts]), joined(parts)
     with mesh_of(context, side_by_side) as mesh:
         uv_maps.write_map(mesh, side_by_side, uv_maps.MAIN_MAP, shelves[corners])
-        pack(context, holomorph.layout.fitting_margin(options.margin, len(parts)))
+        margin = holomorph.layout.fitting_margin(options.margin, len(parts))
+        pack(context, margin, rotate=options.tiling.direction is None)
         found = uv_maps.read_map(mesh, uv_maps.MAIN_MAP)
     square = holomorph.arrangement.square(mapped.part_maps, options.arrangement)
     filling = square.filling * _length(parts, found) / _length(parts, shelves[corners])
@@ -80,11 +81,11 @@ def joined(parts):
     return mesh_io.Polygons(vertices, np.concatenate(corners), np.concatenate([[0], *ends]), None)
 
 
-def pack(context, margin):
-    """Packs the UVs of the active object."""
+def pack(context, margin, rotate):
+    """Packs the UVs of the active object. rotate : whether islands are turned, which takes less room"""
     with editing_all(context):
         # The margin is added before the packer's factor, which is near 1; an exact one would take several packings.
-        bpy.ops.uv.pack_islands(rotate=True, margin_method="ADD", margin=margin)
+        bpy.ops.uv.pack_islands(rotate=rotate, margin_method="ADD", margin=margin)
 
 
 @contextmanager

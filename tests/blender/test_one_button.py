@@ -128,7 +128,7 @@ def test_an_even_map_without_seams_stays_what_it_is():
 
 def test_a_part_that_a_tiling_makes_no_less_even_becomes_seamless():
     obj = torus(thickness=0.1, bulge=0.22)
-    press(evenness=0)
+    press(evenness=0, texture="NUMBERED")  # which does not turn
     (found,) = tilings(obj)
     assert found["poles"] == [] and found["size_range"] > 1.41
     assert is_seamless(obj)

@@ -15,6 +15,7 @@ class Measured:
     flipped_part: float = 0.0
     overlapping_part: float | None = None
     unseen_angle: float = 0.0
+    direction: None = None
     flipped: tuple = (False,)
     collapsed: tuple = (False,)
     area: np.ndarray = field(default_factory=lambda: np.ones(1))

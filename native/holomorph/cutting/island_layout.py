@@ -15,6 +15,7 @@ from ..mesh.hard_edges import seen
 from ..mesh.surface import Surface
 from ..packing.layout import pack
 from ..quality.appearance import HARD_SEAM, SEAM, cost, of_overlaps
+from ..quality.direction import uphill
 from ..quality.overlap import overlapping_part
 from ..quality.quality import Quality
 from .island_cuts import Cuts, corner_pieces
@@ -74,11 +75,12 @@ class Islands(Value):
 class Flattened:
     """A surface that is cut, its pieces, and their conformal maps with free boundaries.
 
-    bends : (#E,) angles at the edges of the surface
+    bends : (#E,) angles at the edges of the surface; is_upright : whether pieces are to stay so
     """
 
     surface: Surface
     bends: Reals
+    is_upright: bool
     cuts: Cuts
     pieces: Surface
     flat: _native.Flattening
@@ -86,11 +88,15 @@ class Flattened:
     progress: Progress | None
 
     @classmethod
-    def of(cls, cuts: Cuts, bends: Reals, threads: int, progress: Progress | None) -> Flattened | None:
+    def of(
+        cls, cuts: Cuts, bends: Reals, is_upright: bool, threads: int, progress: Progress | None
+    ) -> Flattened | None:
         """None where a piece cannot be flattened, as where it is closed."""
         pieces = cuts.pieces()
         flat = _native.flattened(pieces._native, threads, progress)
-        return cls(cuts.surface, bends, cuts.copy(), pieces, flat, threads, progress) if flat.is_flat.all() else None
+        if not flat.is_flat.all():
+            return None
+        return cls(cuts.surface, bends, is_upright, cuts.copy(), pieces, flat, threads, progress)
 
     def evened(self, evenness: float) -> Reals:
         """(#C of the pieces, 2) UVs, each piece for itself."""
@@ -98,8 +104,10 @@ class Flattened:
 
     def laid_out(self, flat_uv: Reals, evenness: float, conformal: Islands | None = None) -> Islands:
         """The `Islands` of the UVs by `evened`. conformal : those for evenness 0, if it is another one"""
-        uv, joints = _upright(self.pieces, flat_uv), self.cuts.joints()
-        uv, nets = _native.joined(self.pieces._native, uv, _preferred(uv, joints), self.flat.is_flat)
+        (uv, is_held), joints = _upright(self.pieces, flat_uv), self.cuts.joints()
+        uv, nets = _native.joined(
+            self.pieces._native, uv, _preferred(uv, joints), self.flat.is_flat, is_held & self.is_upright
+        )
         corners = len(self.surface.corner_vertices)
         uv, count = _packed(uv[:corners], nets[corner_pieces(self.pieces)][:corners])
         seams = self.cuts.mask & ~_is_continuous(self.cuts, uv, joints)
@@ -117,6 +125,8 @@ class Flattened:
         starts = np.flatnonzero(is_border[cuts.edges])
         border = (uv @ [1, 1j])[np.stack([starts, cuts.following[starts]], axis=1)]
         quality = Quality.of(self.surface._native, uv, self.threads)
+        if self.is_upright:
+            quality = quality.upright(uv, self.surface.up)
         return replace(quality, overlapping_part=overlapping_part(border))
 
 
@@ -128,24 +138,23 @@ def visible_lengths(surface: Surface, bends: Reals, seams: Flags) -> tuple[float
 
 
 def _upright(pieces, uv):
-    """The map with each piece turned about 0 so that the axis which it shows most of runs up."""
-    z = uv @ [1, 1j]
-    corners = z[pieces.triangle_corners]
-    across = 0.5j * (np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1))  # times heights, summed: gradients
+    """(The map with each piece turned about 0 so that the axis which it shows most of runs up, (#pieces,) whether that
+    is what is up in space)"""
     at, count = pieces._native.face_component[pieces.triangle_faces], pieces._native.component_count
     points = pieces.vertices[pieces.triangles]
     sides = points[:, 1:] - points[:, :1]
     areas = np.bincount(at, np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1) / 2, count)
     turn = np.ones(count, complex)
-    is_open = np.ones(count, bool)
+    is_open, is_held = np.ones(count, bool), None
     for axis in AXES[pieces.up]:
-        rise = (across * (points @ axis)).sum(axis=1)
+        rise = uphill(pieces._native, uv, axis)
         slope = np.bincount(at, rise.real, count) + 1j * np.bincount(at, rise.imag, count)
         is_shown = is_open & (np.abs(slope) > SHOWN * areas)
         turn[is_shown] = 1j * np.abs(slope[is_shown]) / slope[is_shown]
         is_open &= ~is_shown
-    z *= turn[corner_pieces(pieces)]
-    return np.stack([z.real, z.imag], axis=1)
+        is_held = is_shown if is_held is None else is_held
+    z = (uv @ [1, 1j]) * turn[corner_pieces(pieces)]
+    return np.stack([z.real, z.imag], axis=1), is_held
 
 
 def _preferred(uv, joints):

@@ -15,7 +15,7 @@ from ..mesh.checks import check_threads, check_type, checked_evenness
 from ..mesh.facets import breaks
 from ..mesh.hard_edges import curvature
 from ..mesh.surface import Surface
-from ..quality.appearance import HARD_SEAM, SEAM, cost
+from ..quality.appearance import HARD_SEAM, SEAM, of_direction, of_squares
 from ..quality.quality import Quality
 from .island_cuts import Cuts, in_one_orientation
 from .island_layout import Flattened, Islands, visible_lengths
@@ -74,7 +74,7 @@ def island_map(
     """
     check_type(surface, Surface)
     evenness, threads = checked_evenness(evenness), check_threads(threads or None)
-    return IslandSearch(surface, HARD, evenness, threads).best(progress=progress)
+    return IslandSearch(surface, HARD, evenness, threads, True).best(progress=progress)
 
 
 def one_island(surface, tiling):
@@ -100,13 +100,13 @@ class IslandSearch:
     between what overlaps, for one angle of hard edges after the other. All is first laid out conformal, which is quick.
     Only what may be the best is evened."""
 
-    def __init__(self, surface, angles, evenness, threads):
+    def __init__(self, surface, angles, evenness, threads, is_upright):
         self.surface, (self._surface, self._order) = surface, in_one_orientation(surface)
-        self._angles, self._evenness, self._threads = angles, evenness, threads
+        self._angles, self._evenness, self._threads, self._is_upright = angles, evenness, threads, is_upright
         self._bends = breaks(self._surface)
         self.known: Islands | None = None  # the best that was found
         self._asked = -math.inf, -math.inf  # the bounds for which they were looked for
-        self._hopeless, self._hard_seam, self._left, self._progress = math.inf, HARD_SEAM, math.inf, None
+        self._hopeless, self._is_quick, self._left, self._progress = math.inf, False, math.inf, None
 
     def best(self, most: float = math.inf, work: float = math.inf, progress: Progress | None = None) -> Islands | None:
         """The `Islands` of least cost, if it is below `most`, and they are found by so much work. What was found for
@@ -121,13 +121,13 @@ class IslandSearch:
         return self.known if self.known is not None and self.known.cost < most else None
 
     def at_once(self, most: float, progress: Progress | None = None) -> Islands | None:
-        """Those of least cost but for hard seams, if it is below `most`. Quick: what is `HOPELESS` is not cut to cone
-        points."""
-        self._hopeless, self._hard_seam = HOPELESS * most, 0.0
+        """Those of least cost but for hard seams and direction, if it is below `most`. Quick: what is `HOPELESS` is not
+        cut to cone points."""
+        self._hopeless, self._is_quick = HOPELESS * most, True
         try:
             self.known = self._search(most, progress)
         finally:
-            self._hopeless, self._hard_seam = math.inf, HARD_SEAM
+            self._hopeless, self._is_quick = math.inf, False
         return self.known
 
     def _search(self, most, progress):
@@ -138,7 +138,7 @@ class IslandSearch:
                 continue
             made = self._along(self._cuts(degrees), most if found is None else self._cost(found))
             found = made or found
-            if found and cost(found.quality) <= FINE:
+            if found and of_squares(found.quality) <= FINE:
                 break
         return found and self._as_given(found)
 
@@ -204,7 +204,7 @@ class IslandSearch:
         if LEAST_SEAMS * self._seam_cost(cuts) >= most or self._left <= 0:
             return None
         self._left -= FLATTENING * len(self._surface.triangles)
-        return Flattened.of(cuts, self._bends, self._threads, self._progress)
+        return Flattened.of(cuts, self._bends, self._is_upright, self._threads, self._progress)
 
     def _cut_to_cones(self, cuts, flattened, most):
         """Whether there was a piece to cut; of each one after the other, until none stretches."""
@@ -216,10 +216,12 @@ class IslandSearch:
 
     def _seam_cost(self, cuts):
         soft, hard = visible_lengths(self._surface, self._bends, cuts.mask)
-        return SEAM * soft + self._hard_seam * hard
+        return SEAM * soft + (0.0 if self._is_quick else HARD_SEAM * hard)
 
     def _cost(self, islands):
-        return islands.cost - (HARD_SEAM - self._hard_seam) * islands.hard_length
+        if self._is_quick:
+            return islands.cost - HARD_SEAM * islands.hard_length - of_direction(islands.quality)
+        return islands.cost
 
     def _guess(self, candidate):
         """About what it costs when squares are evened, and what overlaps is cut apart."""
@@ -239,9 +241,11 @@ class IslandSearch:
         quality, kept = found.quality, ("overlapping_part", "unseen_angle")
         of_corners = {name: getattr(quality, name) for name in kept}
         quality = replace(Quality.of(self.surface._native, uv, self._threads), **of_corners)
+        if self._is_upright:
+            quality = quality.upright(uv, self.surface.up)
         return replace(found, uv=arrays.frozen(uv), quality=quality)
 
 
 def _squares(islands):
     """What is minded of the squares."""
-    return islands.cost - islands.seam_cost - islands.overlap_cost
+    return of_squares(islands.quality) - islands.overlap_cost

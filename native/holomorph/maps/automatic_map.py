@@ -76,7 +76,7 @@ def automatic_map(
     >>> surface = holomorph.Surface.read("examples/pretzel.obj")
     >>> found = holomorph.automatic_map(surface)
     >>> print(found.kind, found.verdict.sentence)
-    tiling Fairly even, seamless, no poles
+    tiling Fairly even, seamless, a fifth is upside down, no poles
     """
     check_type(surface, Surface)
     options = {"lattice": lattice, "boundary": boundary, "turn": turn, "max_turn": max_turn, "max_added": max_added}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -19,14 +20,17 @@ from ..mesh.checks import checked_evenness
 from ..mesh.folds import folds
 from ..mesh.surface import Surface
 from ..quality.appearance import CONE, HARD_SEAM, POLE, SEAM, cost
+from ..quality.direction import uphill
 from ..quality.distortion import WorstPlace, drawn_densities, worst_places
 from ..quality.quality import Quality
 from ..quality.verdicts import Seen, Verdict, verdict
 from ..tiles.tiled_surface import TiledSurface
-from ..tiling.tiling import Tiling
+from ..tiling.tilings import UP, Tiling
 from .automatic_structure import AnyStructure
 from .evened_forms import evened_uv
 from .mixed import Mixed
+
+SLIGHT = 1e-6  # part of all slopes that may be rounding
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -233,6 +237,7 @@ def form_map(
     why: str = "it was asked for",
     *,
     evenness: float = 0.0,
+    upright: bool = False,
     progress: Progress | None = None,
 ) -> Map:
     """The `Map` of a combination of a structure's forms, by default the balanced one.
@@ -241,6 +246,8 @@ def form_map(
     coefficients : (n,) as `structure.uv` takes them
     evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Jumps stay,
         and so do straight and round boundaries
+    upright : turn the map until v runs up, as far as one turn can do that: by half turns and quarters where its
+        boundary is straight
     progress : of evening, as in `conformal_structure`
 
     Raises ValueError for an evenness outside 0 to 1; SolverError; Cancelled.
@@ -257,8 +264,35 @@ def form_map(
     if coefficients is None:
         coefficients = structure.balanced_coefficients()
     uv = structure.uv(coefficients)
+    turn = _turn_upright(surface, structure, uv) if upright else 1.0
+    if turn != 1:
+        coefficients = coefficients * turn
+        uv = structure.uv(coefficients)
     quality = structure.quality(uv)
     if evenness > 0:
         uv = evened_uv(structure, coefficients, uv, quality, evenness, progress)
         quality = structure.quality(uv).evened_from(quality, evenness)
+    if upright:
+        uv = arrays.frozen(_turned(uv, turn)) if structure.form_count == 0 else uv
+        quality = quality.upright(uv, surface.up)
     return Map(surface, structure, uv, quality, coefficients, why, _evenness=evenness)
+
+
+def _turn_upright(surface, structure, uv):
+    """The number of length 1 by which coefficients are multiplied for that, or UVs where there are none."""
+    if surface.vertices is None:
+        return 1.0
+    slopes = uphill(structure._triangulation, uv, np.array(UP[surface.up]))
+    length = np.abs(slopes)
+    # Rows are level after a half turn, too; on a closed surface the slopes cancel, their squares do not.
+    level = -(slopes[length > 0] ** 2 / length[length > 0]).sum()
+    if not abs(level) > SLIGHT * length.sum():
+        return 1.0
+    turn = 1.0 if structure.coefficient_type is np.float64 else np.sqrt(np.conj(level) / abs(level))
+    turn = -turn if (slopes.sum() * turn).imag < -SLIGHT * length.sum() else turn
+    return turn if structure.map_kind != "rectangle" else 1j ** round(cmath.phase(turn) / (math.pi / 2))
+
+
+def _turned(uv, turn):
+    z = (uv @ [1, 1j]) * turn
+    return np.stack([z.real, z.imag], axis=1)

@@ -10,7 +10,7 @@ from ..core.array_types import Progress
 from ..core.progress import scaled
 from ..core.value import quoted
 from ..mesh.checks import checked_evenness
-from ..quality.appearance import cost
+from ..quality.appearance import of_squares
 from ..tiling.turned import LATTICE
 from .automatic_structure import automatic_structure
 from .map import Map, form_map
@@ -39,7 +39,7 @@ class MapSearch:
         structure = request.structure or automatic_structure(surface, threads=threads, progress=progress)
         self._structure = structure
         self._tilings = TilingSearch(surface, structure, request)
-        self._untiled = Untiled(surface, structure, request.evenness, threads)
+        self._untiled = Untiled(surface, structure, request.evenness, request.is_upright, threads)
         self._pieces: PieceSearch | None = None
         self._flat: Map | None = None
         self.final = self._final(scaled(progress, 1.0, 1.0))
@@ -49,7 +49,8 @@ class MapSearch:
         main, surface, structure = self._request.main, self._request.surface, self._structure
         if main == "balanced":
             coefficients, evenness = self._request.coefficients, self._request.evenness
-            return form_map(surface, structure, coefficients, evenness=evenness, progress=progress)
+            upright = self._request.is_upright and structure.form_count == 0  # coefficients are as they were given
+            return form_map(surface, structure, coefficients, evenness=evenness, upright=upright, progress=progress)
         if main == "untiled":
             return self._untiled.best("it has no tiling", progress)
         if main == "seamless":
@@ -156,7 +157,7 @@ class MapSearch:
         """Whether islands have a seam across the smooth, or squares that differ, or there are none."""
         if self._request.surface.vertices is None:
             return False
-        return flat is None or flat.soft_length > MOST_SOFT or cost(flat.quality) > FLAT
+        return flat is None or flat.soft_length > MOST_SOFT or of_squares(flat.quality) > FLAT
 
     @property
     def _is_ring(self):

@@ -179,7 +179,7 @@ class PieceSearch:
         key = piece.face_index.tobytes()
         if key not in self._rest:
             structure = automatic_structure(piece, threads=self._threads, progress=progress)
-            untiled = Untiled(piece, structure, self._request.evenness, self._threads)
+            untiled = Untiled(piece, structure, self._request.evenness, self._request.is_upright, self._threads)
             self._rest[key] = untiled.best("it has no tiling", progress)
         return self._rest[key]
 

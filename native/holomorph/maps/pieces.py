@@ -17,7 +17,7 @@ from ..mesh.facets import breaks
 from ..mesh.hard_edges import TIP, curvature, seen
 from ..mesh.origin import Origin
 from ..mesh.surface import Surface
-from ..quality.appearance import cost
+from ..quality.appearance import cost, of_squares
 from ..quality.quality import Quality
 from .map import Map
 from .untiled import FLAT, MOST_CURVED, MOST_SOFT
@@ -103,11 +103,12 @@ def _piece(part, name, flat, threads):
         return Piece(part, name, None, math.inf), math.inf, math.inf
     uv = np.ascontiguousarray(flat.uv[part.corner_index])
     quality = Quality.of(part._native, uv, threads)
+    quality = quality.upright(uv, part.up) if flat.quality.direction else quality
     native, count = part._native, part.given_vertex_count
     is_inner = np.bincount(native.triangle_edges.ravel(), minlength=len(native.edges)) == 2
     is_seam = np.isin(edge_keys(part.vertex_index[native.edges], count), edge_keys(flat.seams, count)) & is_inner
     soft = float((native.edge_lengths * seen(breaks(part)))[is_seam].sum())
-    return Piece(part, name, uv, cost(quality, 0, soft / math.sqrt(part.area))), soft, cost(quality)
+    return Piece(part, name, uv, cost(quality, 0, soft / math.sqrt(part.area))), soft, of_squares(quality)
 
 
 def is_tube(surface: Surface) -> bool:
@@ -140,7 +141,9 @@ def opened(made: Map, surface: Surface) -> Map:
     if made.surface is surface:
         return made
     uv = arrays.frozen(made.uv[: len(surface.corner_vertices)])
+    before = made.quality.direction
     quality = replace(Quality.of(surface._native, uv, 0), unseen_angle=made.quality.unseen_angle)
+    quality = quality.upright(uv, surface.up, before.turns) if before else quality
     tiling = replace(_inside(made.tiling, surface), uv=uv, quality=quality)
     return replace(made, surface=surface, uv=uv, quality=quality, tiling=tiling)
 

@@ -43,6 +43,11 @@ class Request:
     options: Mapping[str, Any] = field(default_factory=dict)
 
     @property
+    def is_upright(self) -> bool:
+        """Whether v is to run up."""
+        return isinstance(self.direction, str)
+
+    @property
     def tiling(self) -> dict[str, Any]:
         """All options of `Structure.tile` but poles."""
         return {"direction": self.direction, "evenness": self.evenness, **self.options}

@@ -16,6 +16,7 @@ from ..core import arrays
 from ..core.array_types import Progress
 from ..core.progress import scaled
 from ..mesh.surface import Surface
+from ..quality.appearance import of_direction
 from ..quality.quality import Quality
 from ..tiling.tilings import Tiling, generators
 from ..tiling.turned import AUTOMATIC, LATTICE, LINED_TURNS, are_whole, lines_of
@@ -141,7 +142,7 @@ class TilingSearch:
             return self._shifted(size, step)
         if lines == AUTOMATIC and turns in LINED_TURNS and (lined := self._lined(turned, size, turns, step)):
             return lined
-        if turned.quality.lost_part == 0 and turned.cost < POOR_TURNED:
+        if turned.quality.lost_part == 0 and _but_direction(turned) < POOR_TURNED:
             return turned
         try:
             return min(turned, self._shifted(size, step), key=lambda each: each.cost)
@@ -189,7 +190,7 @@ class TilingSearch:
             made = self._with(0, size, progress)
         except REFUSALS:
             return None
-        return made if made.quality.lost_part == 0 and made.cost <= REGULAR else None
+        return made if made.quality.lost_part == 0 and _but_direction(made) <= REGULAR else None
 
     def _shifted(self, size, progress):
         """The one of least cost among those with the poles that are asked for, or, where that is left open, with as
@@ -206,7 +207,7 @@ class TilingSearch:
             return self._with(0, size, step)
         for count in self._other_counts(made):
             try:
-                if count or self.guess_without_poles() < made.cost:
+                if count or self.guess_without_poles() < _but_direction(made):
                     made = min(made, self._with(count, size, step), key=lambda each: each.cost)
             except REFUSALS:
                 continue
@@ -252,7 +253,19 @@ class TilingSearch:
             raise TopologyError(
                 f"it would lose {100 * lost:.2g} % of its area, as the mesh is too coarse: subdivide it"
             )
-        return Map.of_tiling(self.surface, self._structure, made)
+        return Map.of_tiling(self.surface, self._structure, self._under_texture(made))
+
+    def _under_texture(self, made):
+        """The tiling with the direction that is seen of the texture it is made for: that may turn, too."""
+        turns, direction = self._request.options.get("turns", 1), made.quality.direction
+        if direction is None or turns == direction.turns:
+            return made
+        return replace(made, quality=replace(made.quality, direction=direction.under(turns)))
+
+
+def _but_direction(made):
+    """The cost of a tiling but for that of its direction, which bounds and guesses know nothing of."""
+    return made.cost - of_direction(made.quality)
 
 
 def stretched(tiling: Tiling, factor: float, lattice: str | ArrayLike) -> Tiling | None:
@@ -280,4 +293,5 @@ def _scaled(before, uv, factor):
     another of two triangles between which the median is."""
     area, median = arrays.frozen(factor * before.area), factor * before.median_density
     same = {"density_ratio": before.density_ratio, "unseen_angle": before.unseen_angle}
-    return replace(Quality.of(before._triangulation, uv, 1), area=area, median_density=median, **same)
+    quality = replace(Quality.of(before._triangulation, uv, 1), area=area, median_density=median, **same)
+    return quality.upright(uv, before.direction.up, before.direction.turns) if before.direction else quality

@@ -15,7 +15,7 @@ from ..cutting.island_map import EVENED, HARD, IslandSearch, one_island
 from ..mesh.facets import breaks
 from ..mesh.hard_edges import TIP, curvature
 from ..mesh.surface import Surface
-from ..quality.appearance import cost
+from ..quality.appearance import of_squares
 from ..tiling.tilings import Tiling
 from .automatic_structure import AnyStructure
 from .map import Map, form_map
@@ -38,10 +38,12 @@ class Untiled:
     """The maps of a part without whole tiles, each made when it is asked for, once. There are no islands where they
     collapse, as where all faces lie on lines: on a smooth part they take longer than a tiling, and cost more."""
 
-    def __init__(self, surface: Surface, structure: AnyStructure, evenness: float, threads: int | None = None) -> None:
-        self.surface, self._structure, self._evenness = surface, structure, evenness
+    def __init__(
+        self, surface: Surface, structure: AnyStructure, evenness: float, is_upright: bool, threads: int | None = None
+    ) -> None:
+        self.surface, self._structure, self._evenness, self._is_upright = surface, structure, evenness, is_upright
         has_islands = surface.vertices is not None and surface.area > 0
-        self._search = IslandSearch(surface, HARD, evenness, threads or 0) if has_islands else None
+        self._search = IslandSearch(surface, HARD, evenness, threads or 0, is_upright) if has_islands else None
 
     @property
     def known(self) -> Islands | None:
@@ -51,12 +53,12 @@ class Untiled:
     @cached_property
     def conformal(self) -> Map:
         """The balanced map, not evened."""
-        return form_map(self.surface, self._structure)
+        return form_map(self.surface, self._structure, upright=self._is_upright)
 
     def at_once(self, progress: Progress | None) -> Map | None:
         """The islands that cost so little that hardly another map costs less, if there are any, or better ones."""
         flat = self._asked(lambda search: search.at_once(GOOD, progress)) if self._may_flatten else None
-        if flat is not None and cost(flat.quality) > FLAT:
+        if flat is not None and of_squares(flat.quality) > FLAT:
             flat = self._asked(lambda search: search.best(flat.cost, self._work, progress)) or flat
         return flat and self._map(flat)
 
@@ -73,22 +75,24 @@ class Untiled:
         """The balanced map, if it costs less than `most`. It is evened only where that may bring it there."""
         least = self.conformal.cost
         if self._evenness > 0 and math.isfinite(least):
-            least -= (1 - EVENED) * cost(self.conformal.quality)
+            least -= (1 - EVENED) * of_squares(self.conformal.quality)
         if not least < most:
             return None
-        step = scaled(progress, 1.0, 1.0)
-        made = form_map(self.surface, self._structure, why=why, evenness=self._evenness, progress=step)
+        made = self._balanced(why, progress)
         return made if made.cost < most else None
 
     def best(self, why: str, progress: Progress | None) -> Map:
         """The one of least cost, however long islands take."""
-        step = scaled(progress, 1.0, 1.0)
-        made = form_map(self.surface, self._structure, why=why, evenness=self._evenness, progress=step)
+        made = self._balanced(why, progress)
         return self.islands(made.cost, progress, math.inf) or made
 
     def one_island(self, tiling: Tiling, why: str) -> Map | None:
         """A tiling scaled to the wanted size, as one island with its seams; None on an intrinsic surface."""
         return None if self.surface.vertices is None else self._map(one_island(self.surface, tiling), why)
+
+    def _balanced(self, why, progress):
+        options = {"evenness": self._evenness, "upright": self._is_upright, "progress": scaled(progress, 1.0, 1.0)}
+        return form_map(self.surface, self._structure, why=why, **options)
 
     def _map(self, flat, why=""):
         where = "hard edges" if flat.soft_length <= MOST_SOFT else "seams"

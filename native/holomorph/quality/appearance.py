@@ -9,6 +9,8 @@ of squares that turn on their way round a tube by 27 degrees in the mean, as on 
 import math
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 if TYPE_CHECKING:
     from .quality import Quality
 
@@ -19,6 +21,7 @@ ROUNDING = 1e-6  # part of the map: less of an overlap is none
 SEAM = 0.5  # for a seam as long as the square root of the area, where it is smooth
 HARD_SEAM = 0.03  # and along hard edges
 POLE = 0.03
+SIDEWAYS, ON_ITS_HEAD = 1.0, 0.5  # of a texture, for the whole area, as far as it is steep
 CONE = 0.005  # of a tiling that turns: three or five squares meet
 TURN = 3.0  # for a radian by which rows of squares that could run round a tube turn away from that, in the mean
 
@@ -29,15 +32,30 @@ def cost(quality: "Quality", poles: int = 0, soft_seams: float = 0.0, hard_seams
     poles, cones : how many
     soft_seams, hard_seams : lengths over the square root of the area
     """
+    seams = SEAM * soft_seams + HARD_SEAM * hard_seams
+    return of_squares(quality) + of_direction(quality) + seams + POLE * poles + CONE * cones
+
+
+def of_squares(quality: "Quality") -> float:
+    """The part of the cost that is of squares that differ, are sheared, flipped or lie over each other."""
     ratio = quality.density_ratio
     if not ratio >= 1 or math.isinf(ratio):
         return math.inf
-    squares = math.log(ratio) + SHEAR * (quality.mean_angle - 1)
-    lost = FLIPPED * quality.flipped_part + of_overlaps(quality)
-    return squares + lost + SEAM * soft_seams + HARD_SEAM * hard_seams + POLE * poles + CONE * cones
+    return math.log(ratio) + SHEAR * (quality.mean_angle - 1) + FLIPPED * quality.flipped_part + of_overlaps(quality)
 
 
 def of_overlaps(quality: "Quality") -> float:
     """The part of the cost that is of what lies over itself: a texture that tiles does not show it."""
     overlapping = quality.overlapping_part or 0.0
     return OVERLAPPING * overlapping + OVERLAPS * (overlapping > ROUNDING)
+
+
+def of_direction(quality: "Quality") -> float:
+    """The part of the cost that is of a texture that does not stand upright, by the sine of the angle."""
+    direction = quality.direction
+    if direction is None or not direction.area > 0:
+        return 0.0
+    angle = np.radians(direction.angle)
+    least = np.where(direction.angle > 90, ON_ITS_HEAD, 0.0)
+    minded = least + (SIDEWAYS - least) * np.sin(angle)
+    return float(direction.steep @ minded) / direction.area

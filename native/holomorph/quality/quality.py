@@ -14,6 +14,7 @@ from .. import _native
 from ..core import arrays
 from ..core.array_types import Flags, Reals
 from ..core.value import Value
+from .direction import Direction
 from .distortion import HIGH, LOW, MOST_ANGLE, quantiles
 from .verdicts import UNSEEN, Verdict, verdict
 
@@ -26,10 +27,10 @@ class Quality(Value):
     (#T,) s1 s2, UV area per surface area; flipped: (#T,) bool; mean_angle: mean of s1 / s2 over the area, each
     triangle with 10 at most, so that none decides it alone; density_ratio: 95 % over 5 % quantile of s1 s2 by area;
     median_density: its 50 % quantile; size_range: of the sides of squares, the root of density_ratio; flipped_part,
-    lost_part, long_part: parts of the area that are flipped, that are flipped or have collapsed, and that lie in long
-    thin triangles; overlapping_part: of a map with a free boundary, the part of its region in the plane that it covers
-    more than once; None for others; unseen_angle: of an evened map, what evening added to `mean_angle`, as far as that
-    is not seen.
+    lost_part: parts of the area that are flipped, and that are flipped or have collapsed; overlapping_part: of a map
+    with a free boundary, the part of its region in the plane that it covers more than once; None for others;
+    unseen_angle: of an evened map, what evening added to `mean_angle`, as far as that is not seen; direction:
+    `Direction`, None where nothing is to be upright.
     """
 
     _unpickled = ("_triangulation",)
@@ -43,6 +44,7 @@ class Quality(Value):
     _triangulation: object
     overlapping_part: float | None = None
     unseen_angle: float = 0.0
+    direction: Direction | None = None
 
     @classmethod
     def of(cls, triangulation: object, uv: Reals, threads: int) -> Quality:
@@ -73,9 +75,17 @@ class Quality(Value):
         )
         is_island = any(each.overlapping_part is not None for each in qualities)
         of_triangles = map(arrays.frozen, (angle, density, flipped))
-        result = cls(*of_triangles, *figures, None, overlapping if is_island else None, unseen)
+        directions = [each.direction for each in qualities if each.direction]
+        direction = Direction.joined(directions) if directions else None
+        result = cls(*of_triangles, *figures, None, overlapping if is_island else None, unseen, direction)
         vars(result)["_weights"] = weights
         return result
+
+    def upright(self, uv: Reals, up: str, turns: int = 1) -> Quality:
+        """The same with the `Direction` of these UVs, where the surface has positions."""
+        if self._triangulation.intrinsic:
+            return self
+        return replace(self, direction=Direction.of(self._triangulation, uv, up, turns))
 
     def evened_from(self, before: Quality, evenness: float) -> Quality:
         """The same for a map that evening made of one with the quality `before`."""
@@ -86,6 +96,8 @@ class Quality(Value):
         """The `Quality` of the same map on a copy of the surface, whose lengths are multiplied by `scale`."""
         result = self._scaled(scale**-2)
         vars(result)["_weights"] = self._weights * scale**2
+        if self.direction:
+            vars(result)["direction"] = self.direction.of_copy(scale)
         return result
 
     def of_density(self, density: float) -> Quality:

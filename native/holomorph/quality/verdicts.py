@@ -128,6 +128,7 @@ def verdict(quality: Quality, seen: Seen = Seen()) -> Verdict:
         EVENNESS[uneven] + squares_of,
         _seams(seen),
         SHEAR[_rank(shear, SHEARED)],
+        quality.direction and quality.direction.words,
         *(f"{_percent(part)} {name}" for name, part in losses.items() if part > LOST),
         special(seen.poles, seen.turns, seen.cones, seen.lines),
         "the mesh is folded over itself" if seen.folded > FOLDED else None,

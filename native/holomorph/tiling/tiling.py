@@ -125,6 +125,7 @@ class Tiler:
                 progress=progress,
             ),
             evenness,
+            isinstance(direction, str),
         )
         if max_added is not None and made.added_distortion > max_added:
             raise TopologyError(_too_sheared(made, max_added, self._surface.genus))
@@ -134,9 +135,8 @@ class Tiler:
         """A tiling of this `Tiler` with another evenness. Nothing is placed or rounded again: quick."""
         made = self._own(tiling)
         evenness = checked_evenness(evenness)
-        return self._tiling(
-            _native.evened_tiling(made, evenness=evenness, threads=self._threads, progress=progress), evenness
-        )
+        evened = _native.evened_tiling(made, evenness=evenness, threads=self._threads, progress=progress)
+        return self._tiling(evened, evenness, tiling.quality.direction is not None)
 
     def move_poles(
         self,
@@ -168,14 +168,14 @@ class Tiler:
             threads=self._threads,
             progress=progress,
         )
-        return self._tiling(moved, evenness)
+        return self._tiling(moved, evenness, tiling.quality.direction is not None)
 
     def _own(self, tiling):
         if tiling not in self._made:
             raise ValueError("this Tiler did not make the tiling")
         return self._made[tiling]
 
-    def _tiling(self, made, evenness):
+    def _tiling(self, made, evenness, is_upright):
         uv, triangulation, zeros = made.uv(), made.surface(), made.zeros()
         basis, jumps = (np.array([z.real, z.imag]) for z in (made.lattice(), made.periods().ravel()))
         periods = np.linalg.solve(basis, jumps)
@@ -191,15 +191,17 @@ class Tiler:
             optimal_size_range=self.poles.size_range,
             rounding=Rounding(*made.rounding()),
             tiles=made.tiles(),
-            quality=self._quality(made, evenness),
+            quality=self._quality(made, evenness, is_upright),
             seams=self._of_surface(triangulation.edges[made.seams()]),
             lattice=arrays.frozen(basis.copy()),
         )
         self._made[tiling] = made
         return tiling
 
-    def _quality(self, made, evenness):
+    def _quality(self, made, evenness, is_upright):
         after = Quality.of(made.surface(), made.uv(), self._threads)
+        if is_upright:
+            after = after.upright(made.uv(), self._component.up)
         if evenness == 0:
             return after
         conformal = _native.evened_tiling(made, evenness=0.0, threads=self._threads, progress=None)

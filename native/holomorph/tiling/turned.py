@@ -71,6 +71,7 @@ class TurnedTiler:
         self._turns, self._tiles = turns, float(max(USUAL_TILES, TILES_PER_HANDLE * self._component.genus))
         edges = [] if lines == "none" else lines_of(self._component, self._own_edges(marked))
         self._lines = lines if len(edges) else "none"
+        self._is_upright = isinstance(direction, str)
         self._maps = _native.TurnedMaps(
             self._component._native,
             turns=turns,
@@ -95,6 +96,8 @@ class TurnedTiler:
         if self._turns == 6:
             uv, before = (np.ascontiguousarray(of @ lattice.T) for of in (uv, before))
         quality = Quality.of(self._component._native, uv, self._threads)
+        if self._is_upright:
+            quality = quality.upright(uv, self._component.up, self._turns)
         if evenness > 0:
             quality = quality.evened_from(Quality.of(self._component._native, before, self._threads), evenness)
         if quality.lost_part > MOST_LOST:

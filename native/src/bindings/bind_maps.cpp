@@ -232,14 +232,15 @@ py::array evened_islands(const mesh::Surface& surface, const Flattening& flatten
 
 // (#C, 2) UVs and the nets of the components. The facade has made the arguments.
 std::pair<py::array, py::array> joined(const mesh::Surface& surface, const Contiguous<double>& uv,
-                                       const Contiguous<int>& joints, const Contiguous<char>& is_joinable) {
+                                       const Contiguous<int>& joints, const Contiguous<char>& is_joinable,
+                                       const Contiguous<char>& is_held) {
   uv::UvArray moved = Eigen::Map<const uv::UvArray>(uv.data(), uv.shape(0), 2);
   const auto pairs = rows<int, 4>(joints);
-  const auto flags = values<char>(is_joinable);
+  const auto joinable = values<char>(is_joinable), held = values<char>(is_held);
   std::vector<int> nets;
   {
     const py::gil_scoped_release unlocked;
-    nets = islands::joined(surface, moved, pairs, flags);
+    nets = islands::joined(surface, moved, pairs, joinable, held);
   }
   return {give_matrix(std::move(moved)), give(std::move(nets))};
 }
@@ -265,7 +266,8 @@ void bind_islands(py::module_& m) {
   m.def("evened_islands", &evened_islands, py::arg("surface"), py::arg("flattening"), py::arg("evenness"),
         py::arg("threads"), py::arg("progress"));
   m.def("parted", &parted, py::arg("surface"), py::arg("uv"));
-  m.def("joined", &joined, py::arg("surface"), py::arg("uv"), py::arg("joints"), py::arg("is_joinable"));
+  m.def("joined", &joined, py::arg("surface"), py::arg("uv"), py::arg("joints"), py::arg("is_joinable"),
+        py::arg("is_held"));
 }
 
 void bind_records(py::module_& m) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <complex>
+#include <numbers>
 #include <numeric>
 
 #include "islands/split_overlaps.h"
@@ -10,8 +12,9 @@
 namespace holomorph::islands {
 namespace {
 
-constexpr int kMostTriangles = 4096;  // the most in a net: all pairs of two nets are tested
-constexpr double kSameLength = 1e-3;  // difference over the longer side
+constexpr int kMostTriangles = 4096;                          // the most in a net: all pairs of two nets are tested
+constexpr double kSameLength = 1e-3;                          // difference over the longer side
+const double kTurned = std::cos(5 * std::numbers::pi / 180);  // of an island that is held
 
 // z -> turn z + shift
 struct Motion {
@@ -21,7 +24,8 @@ struct Motion {
 
 class Nets {
  public:
-  Nets(const mesh::Surface& surface, const uv::UvArray& uv) : surface_(surface), uv_(uv) {
+  Nets(const mesh::Surface& surface, const uv::UvArray& uv, const std::vector<char>& is_held)
+      : surface_(surface), uv_(uv), is_held_(is_held) {
     const int count = surface.component_count;
     triangles_.resize(count), islands_.resize(count), motions_.resize(count);
     net_.resize(count);
@@ -46,20 +50,32 @@ class Nets {
   void join(Joint joint) {
     int one = net_[island_at(joint[0])], other = net_[island_at(joint[2])];
     if (one == other || sizes_[one] + sizes_[other] > kMostTriangles) return;
-    // The larger net stays where it is.
-    if (sizes_[one] < sizes_[other]) std::swap(one, other), joint = {joint[2], joint[3], joint[0], joint[1]};
+    // The larger net stays where it is, or the one that must not be turned.
+    const bool swaps = sizes_[one] < sizes_[other];
+    for (const bool exchanged : {swaps, !swaps}) {
+      if (exchanged ? arrive(other, one, {joint[2], joint[3], joint[0], joint[1]}) : arrive(one, other, joint)) return;
+    }
+  }
+
+ private:
+  // Moves the net `other` to `one`, if that can be done. @return whether no more is to be tried
+  bool arrive(int one, int other, const Joint& joint) {
     const std::array<Complex, 2> stays{at(joint[0]), at(joint[1])}, moves{at(joint[2]), at(joint[3])};
     // Each side has its polygon on the left, so that the sides run in opposite directions.
     const Complex to = stays[0] - stays[1], from = moves[1] - moves[0];
     const double longer = std::max(std::abs(to), std::abs(from));
-    if (!(longer > 0) || std::abs(std::abs(to) - std::abs(from)) > kSameLength * longer) return;
+    if (!(longer > 0) || std::abs(std::abs(to) - std::abs(from)) > kSameLength * longer) return true;
     const Complex turn = to / from / std::abs(to / from);
+    const bool is_turned = std::ranges::any_of(islands_[other], [&](int island) {
+      return is_held_[island] && (turn * motions_[island].turn).real() < kTurned;
+    });
+    if (is_turned) return false;
     // Middles coincide: a small difference in length is shared by both ends.
     const Motion motion{turn, (stays[0] + stays[1]) / 2.0 - turn * (moves[0] + moves[1]) / 2.0};
     if (!overlapping(one, other, motion)) unite(one, other, motion);
+    return true;
   }
 
- private:
   Points points(int t) const {
     const auto& corners = surface_.triangle_corners[t];
     return {at(corners[0]), at(corners[1]), at(corners[2])};
@@ -103,6 +119,7 @@ class Nets {
 
   const mesh::Surface& surface_;
   const uv::UvArray& uv_;
+  const std::vector<char>& is_held_;
   std::vector<int> corner_islands_;
   std::vector<std::vector<int>> triangles_, islands_;  // in each island; in each net
   std::vector<Motion> motions_;                        // each island's
@@ -123,9 +140,9 @@ std::vector<int> lowest_of_nets(const Nets& nets, int count) {
 }  // namespace
 
 std::vector<int> joined(const mesh::Surface& surface, uv::UvArray& uv, const std::vector<Joint>& joints,
-                        const std::vector<char>& is_joinable) {
+                        const std::vector<char>& is_joinable, const std::vector<char>& is_held) {
   const uv::UvArray flat = uv;
-  Nets nets(surface, flat);
+  Nets nets(surface, flat, is_held);
   for (const Joint& joint : joints) {
     if (is_joinable[nets.island_at(joint[0])] && is_joinable[nets.island_at(joint[2])]) nets.join(joint);
   }

@@ -93,7 +93,7 @@ def test_a_tiling_that_loses_much_is_refused_and_the_best_other_map_is_not():
         """A structure whose tilings lose a part of the area."""
 
         def __init__(self, part):
-            quality = SimpleNamespace(lost_part=part, size_range=1.0)
+            quality = SimpleNamespace(lost_part=part, size_range=1.0, direction=None)
             self.tile = lambda **_options: SimpleNamespace(quality=quality, uv=uv)
 
     request = Request(surface, main="seamless", poles=2)

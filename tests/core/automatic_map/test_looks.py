@@ -71,18 +71,24 @@ MODELS = {
 }
 
 LOOKS = {
-    "pretzel": Looks("tiling", (0, 0), 2.4, 4.4, 1.25, (5.0, 5.9), "Fairly even"),
-    "knot": Looks("tiling", (0, 0), 1.6, 1.7, 1.12, (3.5, 4.3), "Even"),
-    "torus": Looks("tiling", (3, 3), 2.8, 5.0, 1.3, (2.8, 3.6), "Fairly even, slightly sheared"),
-    "thick torus": Looks("tiling", (6, 6), 2.7, 8.4, 1.3, (3.3, 4.1), "Fairly even, slightly sheared"),
-    "torus with a hole": Looks("tiling", (3, 3), 3.0, 4.4, 1.31, (2.9, 3.6), "Fairly even, slightly sheared"),
-    "limbs": Looks("tiling", (6, 6), 2.9, 8.5, 1.4, (4.1, 4.8), "Fairly even, slightly sheared"),
+    "pretzel": Looks("tiling", (0, 0), 2.4, 4.4, 1.25, (5.0, 5.9), "Fairly even, a fifth is upside down"),
+    "knot": Looks("tiling", (0, 0), 1.6, 1.7, 1.12, (3.5, 4.3), "Even, a tenth is upside down"),
+    "torus": Looks(
+        "tiling", (3, 3), 2.8, 5.0, 1.3, (2.8, 3.6), "Fairly even, slightly sheared, a fifth is upside down"
+    ),
+    "thick torus": Looks(
+        "tiling", (6, 6), 2.7, 8.4, 1.3, (3.3, 4.1), "Fairly even, slightly sheared, a tenth is upside down"
+    ),
+    "torus with a hole": Looks(
+        "tiling", (3, 3), 3.0, 4.4, 1.31, (2.9, 3.6), "Fairly even, slightly sheared, a quarter is upside down"
+    ),
+    "limbs": Looks("tiling", (6, 6), 2.9, 8.5, 1.4, (4.1, 4.8), "Fairly even, slightly sheared, a fifth is sideways"),
     "spikes": Looks("tiling", (4, 4), 2.6, 5.0, 1.18, (2.8, 3.6), "Fairly even"),
     "ball of n-gons": Looks("tiling", (8, 8), 2.4, 6.6, 1.26, (2.4, 3.1), "Fairly even, slightly sheared"),
     "washer": Looks("mixed", (0, 0), 1 + 1e-6, 1 + 1e-6, 1 + 1e-6, (5.8, 7.2), "Even"),
     "block": Looks("islands", (0, 0), 1.04, 1.08, 1.02, (8.9, 10.9), "Even"),
-    "bowl": Looks("flat", (0, 0), 2.1, 2.2, 1.17, (0.0, 0.0), "Even"),
-    "bob": Looks("tiling", (3, 3), 3.2, 8.0, 1.36, (2.5, 3.2), "Fairly even, slightly sheared"),
+    "bowl": Looks("tiling", (4, 4), 2.8, 6.1, 1.17, (2.8, 3.5), "Fairly even"),
+    "bob": Looks("tiling", (3, 3), 3.2, 8.0, 1.36, (2.5, 3.2), "Fairly even, slightly sheared, a fifth is sideways"),
     "hand": Looks("tiling", (6, 6), 2.2, 5.7, 1.24, (3.8, 4.8), "Even"),
 }
 

@@ -8,9 +8,8 @@ from holomorph.quality.appearance import TURN, cost
 
 
 def quality(density_ratio=1.0, shear=1.0, flipped=0.0, overlapping=0.0):
-    return SimpleNamespace(
-        density_ratio=density_ratio, mean_angle=shear, flipped_part=flipped, overlapping_part=overlapping
-    )
+    lost = {"flipped_part": flipped, "overlapping_part": overlapping}
+    return SimpleNamespace(density_ratio=density_ratio, mean_angle=shear, direction=None, **lost)
 
 
 def test_squares_of_one_to_two_are_as_bad_as_these():
