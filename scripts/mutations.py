@@ -33,6 +33,7 @@ SLIVERS = CORE + "mesh/test_slivers.py"
 WILD = CORE + "mesh/test_wild_vertices.py"
 TURNED = CORE + "turns/test_turned_tilings.py"
 LINES = CORE + "turns/test_turned_lines.py"
+MIRRORED = CORE + "turns/test_mirrored.py"
 ASKED = CORE + "turns/test_asked_turns.py"
 CHOSEN = CORE + "turns/test_chosen_cones.py"
 DIRECTION = CORE + "uv/test_direction.py"
@@ -277,12 +278,17 @@ MUTATIONS = (
         ROOM + "evening/unknowns.cpp",
         ("unknowns-turn", "2 * b + 1, weight * turn.imag()", "2 * b + 1, -weight * turn.imag()", TURNED),
     )
-    | of(PACKAGE + "maps/tiling_search.py", ("lines-asked", "lines in CHOSEN_LINES and", "lines in () and", ASKED))
+    | of(PACKAGE + "maps/tiling_search.py", ("lines-asked", "lines in EDGED and len", "lines in () and len", ASKED))
     | of(
         PACKAGE + "maps/piece_search.py",
         ("cones-of-pieces", "tiling.seams, tiling.cones", "tiling.seams, zeros", ASKED),
     )
     | of(PACKAGE + "maps/mixed.py", ("cones-cost", "self.hard_length, cones)", "self.hard_length)", ASKED))
     | of(PACKAGE + "batch/textured.py", ("centre-of-turns", "+ np.array(found.centre) / images", "", GLB))
+    | of(
+        PACKAGE + "tiling/mirrored.py",
+        ("mirror-jumps", "along[right] * np.conj(along[left])", "along[left] * np.conj(along[right])", MIRRORED),
+    )
+    | of(PACKAGE + "mesh/mirror.py", ("mirror-side", "following_corners(surface)[order[at]]", "order[at]", MIRRORED))
     | of(PACKAGE + "tiling/turned.py", ("lines-ends", "MOST_ENDS = 0.02", "MOST_ENDS = 0.2", LINES))
 )

@@ -66,6 +66,7 @@ ROWS = items(
     ANYWHERE="Squares are as even as can be; edges cut through them",
     ALONG_EDGES="Rows run along hard edges, edges marked sharp, and smooth borders",
     END_AT_EDGES="Rows run along these edges and end there with whole squares",
+    MIRRORED="Left and right are alike, on objects that mirror themselves in X or Y",
 )
 UNLINED = {"NONE", "SIXTH"}  # turns of maps without such rows
 OWN_TEXTURES = {"IMAGE": "images", "MATERIAL": "materials"}  # where Blender has them

@@ -21,7 +21,16 @@ AXES = "XYZ"
 ALLOWING = 0.5  # weight of a vertex above which a pole may be there
 SQUARES = 4  # of the checker, across an image
 TURNS = {"NONE": 1, "HALF": 2, "QUARTER": 4, "SIXTH": 6}  # others: those of the texture
-ROWS = {"AUTOMATIC": "automatic", "ANYWHERE": "none", "ALONG_EDGES": "free", "END_AT_EDGES": "whole"}
+ROWS = {
+    "AUTOMATIC": "automatic",
+    "ANYWHERE": "none",
+    "ALONG_EDGES": "free",
+    "END_AT_EDGES": "whole",
+    "MIRRORED": "mirror",
+}
+NO_ROWS = dict.fromkeys(("free", "whole"), "rows do not lie at its edges: there are none") | {
+    "mirror": "left and right differ: it does not mirror itself in X or Y"
+}
 LINED = (2, 4)  # turns of maps whose rows may do so
 TURNED = {2: ("square", "half"), 4: ("square", "quarter"), 6: ("hex", "sixth")}  # lattice that they leave, their name
 QUICK_TURNED = 100_000  # triangles of an object: some 12 seconds, which grow as their square
@@ -174,9 +183,9 @@ def _why_no_rows(found, results):
     """What is told of objects whose rows do not lie at edges, as was asked."""
     for target, made in zip(found, results):
         asked = made.options.tiling.lines if isinstance(made, mapped.MappedObject) else "none"
-        tilings = [part.tiling for part in made.tiled if part.tiling] if asked in ("free", "whole") else []
+        tilings = [part.tiling for part in made.tiled if part.tiling] if asked not in ("automatic", "none") else []
         if any(tiling.turns != 1 and tiling.lines == "none" for tiling in tilings):
-            yield f"{target.name}: rows do not lie at its edges: there are none, or tiles are too large for them"
+            yield f"{target.name}: {NO_ROWS[asked]}, or tiles are too large for them"
 
 
 def _density(size, repeats):

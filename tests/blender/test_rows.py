@@ -7,7 +7,7 @@ from loaded_addon import module
 from scenes import mesh_object, run, select, sphere_arrays, stored_report, uv
 
 request, properties = module("operators.request"), module("operators.tile_properties")
-LINES = {"AUTOMATIC": "whole", "ANYWHERE": "none", "ALONG_EDGES": "free", "END_AT_EDGES": "whole"}
+LINES = {"AUTOMATIC": "whole", "ANYWHERE": "none", "ALONG_EDGES": "free", "END_AT_EDGES": "whole", "MIRRORED": "mirror"}
 
 
 def tile(**options):
@@ -67,7 +67,8 @@ def test_rows_lie_as_the_dial_says(operator, rows):
     assert operator(rows=rows) == {"FINISHED"}
     (made,) = tilings(obj)
     assert (made["turns"], made["lines"]) == (4, LINES[rows])
-    words = {"none": "8 cones", "free": "rows run along edges", "whole": "rows end at edges"}[LINES[rows]]
+    words = {"none": "8 cones", "free": "rows run along edges", "whole": "rows end at edges"}
+    words = {**words, "mirror": "both halves are alike"}[LINES[rows]]
     assert stored_report(obj)["verdict"]["sentence"].endswith(words)
     assert module("results.stored").tiling_summary(obj["holomorph_report"])[-1].endswith(words)
 

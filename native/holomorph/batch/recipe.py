@@ -234,7 +234,7 @@ def _check_together(recipe):
         raise UsageError("maps.residues and maps.poles differ in length")
     if recipe.output.texture is not None and not set(formats.TEXTURED) & set(recipe.output.formats):
         raise UsageError(f"output.texture needs one of output.formats to be {' or '.join(formats.TEXTURED)}")
-    if recipe.tiling.lines in ("free", "whole") and recipe.tiling.turns not in (*LINED_TURNS, AUTO):
+    if recipe.tiling.lines not in (AUTOMATIC, "none") and recipe.tiling.turns not in (*LINED_TURNS, AUTO):
         raise UsageError(f'tiling.lines = "{recipe.tiling.lines}" needs tiling.turns = 2, 4 or "{AUTO}"')
     if recipe.tiling.density is not None and recipe.tiling.tiles:
         raise UsageError("tiling.density and tiling.tiles cannot be combined")

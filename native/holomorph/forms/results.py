@@ -152,7 +152,7 @@ class Structure(Value):
             `image_turns` finds in the texture, 1 without one
         texture : pixels, as in `image_turns`, for "auto". Its centre of turns belongs at the corners of tiles
         lines : "free" for rows that run along long hard edges and smooth boundaries, "whole" for rows that end there as
-            well, where turns is 4, or 2 and the edges suit it; "none"
+            well, where turns is 4, or 2 and the edges suit it; "mirror" for two halves that are alike; "none"
         marked : (n, 2) vertices of edges that are such lines, too; others than edges are ignored
         cones : {vertex: angle in full turns, 3/4 where three squares meet} where these are chosen, on a tiling that
             turns and has no lines. On a closed surface what is missing of full turns is the Euler characteristic

@@ -19,7 +19,7 @@ from ..mesh.surface import Surface
 from ..quality.appearance import of_direction
 from ..quality.quality import Quality
 from ..tiling.tilings import Tiling, generators
-from ..tiling.turned import AUTOMATIC, LATTICE, LINED_TURNS, are_whole, lines_of
+from ..tiling.turned import AUTOMATIC, EDGED, LATTICE, LINED_TURNS, MIRROR, are_whole, lines_of
 from .arrangement import on_grid
 from .automatic_structure import AnyStructure
 from .map import Map
@@ -48,7 +48,6 @@ POOR_TURNED = 2.0  # cost of a tiling that turns, above which one that is only s
 # as the square root of the area, and at most. They are tried where there are as many, and up to so many triangles:
 # objects that are made of such edges have few.
 LINED, MOST_LINED, MOST_LINED_TRIANGLES = 0.1, 0.3, 20_000
-CHOSEN_LINES = ("whole", "free")
 
 MOST_TURNED = 0.5  # radians from the direction that is asked for, where no whole tiles of one size are nearer to it
 MOST_STRETCHED = 1.35  # factor: whole tiles around a limb, from three on, are never further from the wanted size
@@ -131,7 +130,7 @@ class TilingSearch:
         if self._has_cones:
             return self._with(self._request.poles, size, progress, turns=turns)
         step, size = scaled(progress, 1.0, 1.0), size | ({"lattice": LATTICE[turns]} if turns in LATTICE else {})
-        if lines in CHOSEN_LINES and len(self._edges_of_lines):
+        if lines == MIRROR or lines in EDGED and len(self._edges_of_lines):
             if lined := self._with_turns(size, progress, turns, lines):
                 return lined
             progress = step
@@ -158,7 +157,7 @@ class TilingSearch:
         if length < 1:
             return None
         most = turned.cost + min(LINED * length, MOST_LINED)
-        for lines in CHOSEN_LINES:
+        for lines in EDGED:
             made = self._with_turns(size, progress, turns, lines)
             if made and made.quality.lost_part == 0 and made.cost < most:
                 return made
@@ -168,7 +167,7 @@ class TilingSearch:
     def _marked(self):
         """The marked edges that may be lines: all where lines are asked for."""
         marked, lines = (self._request.options.get(name) for name in ("marked", "lines"))
-        return marked if marked is not None and (lines in CHOSEN_LINES or are_whole(marked)) else None
+        return marked if marked is not None and (lines in EDGED or are_whole(marked)) else None
 
     @cached_property
     def _edges_of_lines(self):

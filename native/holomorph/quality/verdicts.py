@@ -32,7 +32,8 @@ IN_VIEW, FOLDED = 0.05, 0.1  # lengths of seams and of folds over the root of th
 OVERLAPPING = 1e-6, 0.01, 0.2  # part of the map that islands cover twice: less is rounding, and the limits of levels
 USED = 0.4  # part of the image that islands cover: less wastes texels
 TURNED = {2: "half turns", 4: "quarter turns", 6: "sixth turns"}  # of tilings, by `Tiling.turns`
-LINED = {"free": "rows run along edges", "whole": "rows end at edges"}  # by `Tiling.lines`
+# By `Tiling.lines`.
+LINED = {"free": "rows run along edges", "whole": "rows end at edges", "mirror": "both halves are alike"}
 PURPOSES = {"verdict": "To tile", "bake": "To bake"}  # of the `Verdict`s in a report
 
 

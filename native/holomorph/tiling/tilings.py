@@ -74,7 +74,8 @@ class Tiling(Value):
     cone_angles : (k,) these, in full turns: 3/4 where three squares meet
     jumps : (#S, 3) integers, of a tiling that turns: from the triangle on the left of a seam to that on its right the
         UVs are turned so many times, and moved by so much, in vectors of the lattice
-    lines : "free" where rows run along hard edges and smooth boundaries, "whole" where they end there, too; "none"
+    lines : "free" where rows run along hard edges and smooth boundaries, "whole" where they end there, too;
+        "mirror" where both halves of a surface that mirrors itself are alike; "none"
     """
 
     uv: Reals

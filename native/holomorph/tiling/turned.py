@@ -21,6 +21,7 @@ from ..mesh.origin import edges_on_part
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from .image_turns import image_turns
+from .mirrored import Half, jumps_of
 from .tilings import LATTICES, UPRIGHT, Rounding, Tiling, along
 
 TURNS = (1, 2, 4, 6)
@@ -30,7 +31,8 @@ PRICE = 2e-4  # of a cone: what it is to take off the mean square of the logarit
 LINED_TURNS = (2, 4)  # lines cross at right angles
 WHOLE = 1e-6  # part of a turn: less is rounding
 MOST_LOST = 0.5  # part of the area: nothing is left to look at
-LINES = ("none", "free", "whole")
+EDGED, MIRROR = ("whole", "free"), "mirror"  # lines along edges, and the one between two halves that are alike
+LINES = ("none", *EDGED, MIRROR)
 AUTOMATIC = "automatic"  # the lines that cost little
 HARD = 40.0  # degrees by which a surface bends at an edge that is to be a line
 MOST_ENDS = 0.02  # of chains, for each of their edges
@@ -47,7 +49,7 @@ class TurnedTiler:
     turns : 2, 4 or 6: the texture looks the same after a half, a quarter or a sixth turn
     direction : "upright" for rows that run level; a (3,) vector that u runs along, as far as it can; None for any
     lines : "free" where rows are to run along long hard edges and smooth boundaries; "whole" where they are to end
-        there as well; "none"
+        there as well; "mirror" where both halves of a surface that mirrors itself are to look alike; "none"
     marked : (n, 2) vertices of edges that are to be lines besides those of `lines_of`
     cones : {vertex: angle in full turns} instead of those that are searched for
     threads : as in `conformal_structure`
@@ -69,18 +71,21 @@ class TurnedTiler:
         self._surface, self._component, self._threads = surface, only_component(surface), check_threads(threads or None)
         vector, _ = along(direction, None, self._component)
         self._turns, self._tiles = turns, float(max(USUAL_TILES, TILES_PER_HANDLE * self._component.genus))
-        edges = [] if lines == "none" else lines_of(self._component, self._own_edges(marked))
+        self._half = Half(self._component) if lines == MIRROR and cones is None else None
+        edges = self._half.lines if self._half else []
+        if lines in EDGED:
+            edges = lines_of(self._component, self._own_edges(marked))
         self._lines = lines if len(edges) else "none"
         self._is_upright = isinstance(direction, str)
         self._maps = _native.TurnedMaps(
-            self._component._native,
+            self._half.native if self._half else self._component._native,
             turns=turns,
             price=PRICE,
             direction=vector,
             is_of_u=not isinstance(direction, str),
-            tiles=self._tiles,
+            tiles=self._tiles / self._parts,
             lines=edges,
-            whole_lines=lines == "whole",
+            whole_lines=lines in ("whole", MIRROR),
             chosen=[] if cones is None else self._missing(cones),
         )
 
@@ -90,8 +95,12 @@ class TurnedTiler:
         evenness = checked_evenness(evenness)
         tiles = self._tiles if tiles is None else real_number(tiles, "tiles", positive=True)
         uv, before, jumps, cones, missing = _native.turned_map(
-            self._maps, tiles=tiles, evenness=evenness, threads=self._threads, progress=progress
+            self._maps, tiles=tiles / self._parts, evenness=evenness, threads=self._threads, progress=progress
         )
+        if self._half:
+            cones, missing = self._half.cones(cones, missing, uv, self._turns)
+            uv, before = self._half.unfolded(uv), self._half.unfolded(before)
+            jumps = jumps_of(self._component, uv, self._turns)
         lattice = np.array([[z.real, z.imag] for z in LATTICES[LATTICE[self._turns]]]).T.astype(float)
         if self._turns == 6:
             uv, before = (np.ascontiguousarray(of @ lattice.T) for of in (uv, before))
@@ -147,6 +156,10 @@ class TurnedTiler:
         if len(edge):
             raise TopologyError(f"vertex {list(cones)[edge[0]]} is on the boundary, where no cone can be")
         return missing
+
+    @property
+    def _parts(self):
+        return 2 if self._half else 1
 
     def _own_edges(self, ends):
         if ends is None:

@@ -80,7 +80,7 @@ def test_lines_that_cannot_be_made_are_left_out():
     ("options", "words"),
     [
         ({"turns": "texture"}, "turns is 'texture'; one of 1, 2, 4, 6 is needed"),
-        ({"turns": 4, "lines": "all"}, "lines is 'all'; one of automatic, none, free, whole is needed"),
+        ({"turns": 4, "lines": "all"}, "lines is 'all'; one of automatic, none, whole, free, mirror is needed"),
         ({"turns": 6, "lines": "free"}, "lines is 'free', for which turns must be 2 or 4"),
         ({"turns": "auto", "lines": "whole"}, "lines is 'whole', for which turns must be 2 or 4"),
         ({"turns": "auto", "texture": np.zeros(3)}, "pixels have the shape"),

@@ -174,8 +174,8 @@ def test_an_automatic_map_takes_lines_where_they_cost_little():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"turns": 4, "lines": "all"}, "lines is 'all'; one of none, free, whole is needed"),
-        ({"turns": 4, "lines": None}, "lines is None; one of none, free, whole is needed"),
+        ({"turns": 4, "lines": "all"}, "lines is 'all'; one of none, whole, free, mirror is needed"),
+        ({"turns": 4, "lines": None}, "lines is None; one of none, whole, free, mirror is needed"),
         ({"turns": 6, "lines": "free"}, "lines is 'free', for which turns must be 2 or 4"),
         ({"lines": "whole"}, "lines is 'whole', for which turns must be 2 or 4"),
     ],

@@ -8,6 +8,7 @@ import pytest
 from holomorph import Cancelled, Surface, TopologyError, automatic_map, automatic_structure
 from holomorph.quality.quality import Quality
 from solved import surface_of
+from turned_jumps import jump_errors
 
 MESHES = {
     "sphere": lambda: families.geodesic_sphere(8),
@@ -52,38 +53,10 @@ def angles_around(surface, uv):
     return np.bincount(surface.triangles.ravel(), corners.ravel()) / (2 * np.pi)
 
 
-def both_sides(surface, made):
-    """(((#E, 2) complex UVs at the ends of inner edges, in the triangle on the left and on the right), (#E,) seam)."""
-    native = surface._native
-    ends, edges = surface.triangles, native.triangle_edges.ravel()
-    uv = made.uv @ np.linalg.inv(made.lattice).T
-    at = uv[native.triangle_corners]
-    following = np.roll(np.arange(3), -1)
-    start, end = at.reshape(-1, 2), at[:, following].reshape(-1, 2)
-    is_left = ends.ravel() == native.edges[edges, 0]
-    count = np.bincount(edges, minlength=len(native.edges))
-    left, right = np.zeros((2, len(count), 2, 2))
-    left[edges[is_left]] = np.stack([start, end], axis=1)[is_left]
-    right[edges[~is_left]] = np.stack([end, start], axis=1)[~is_left]
-    seam = np.full(len(count), -1)
-    keys = {tuple(pair): k for k, pair in enumerate(native.edges.tolist())}
-    seam[[keys[tuple(pair)] for pair in made.seams.tolist()]] = np.arange(len(made.seams))
-    return left, right, seam, count == 2
-
-
-def turn(turns):
-    """The turn of the lattice by a part of a full one, in its own coordinates."""
-    return {2: -np.eye(2), 4: np.array([[0, -1], [1, 0]]), 6: np.array([[0, -1], [1, 1]])}[turns]
-
-
 @pytest.mark.parametrize("turns", [2, 4, 6])
 def test_jumps_are_symmetries_of_the_texture(surface, turns):
     made = tiling(surface, turns)
-    left, right, seam, is_inner = both_sides(surface, made)
-    jumps = np.vstack([made.jumps, [0, 0, 0]])[seam]
-    powers = np.stack([np.linalg.matrix_power(turn(turns), r) for r in range(turns)])
-    expected = np.einsum("eij,ekj->eki", powers[jumps[:, 0]], left) + jumps[:, None, 1:]
-    error = np.abs(right - expected)[is_inner]
+    error = jump_errors(surface, made)
     assert error.max() == 0 if turns != 6 else error.max() < 1e-12
     single = made.uv.astype(np.float32)
     assert turns == 6 or np.array_equal(single, made.uv)
