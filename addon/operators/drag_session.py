@@ -127,6 +127,8 @@ class Session:
             if not self.may_go_to(pole, vertex):
                 why = "on another part or not allowed" if not self._are_cones else "no place of its own inside its part"
                 raise ValueError(f"{self.noun} {pole} cannot move to vertex {vertex}, which is {why}")
+        if self._are_cones and len(set(moves.values())) < len(moves):
+            raise ValueError("two cones cannot move to one vertex")
         job = self.job(moves)
         job.run()
         return self.taken(job)

@@ -3,6 +3,7 @@
 end; work in a worker thread, while Blender's window stays alive."""
 
 import functools
+import math
 
 import bpy
 
@@ -167,6 +168,7 @@ class WorkOperator(Explained):
 
     def _begin(self, context, is_here):
         try:
+            self._check_numbers()
             self.prepare(context)
         except ValueError as error:
             return self.refuse(error)
@@ -179,6 +181,16 @@ class WorkOperator(Explained):
         manager.modal_handler_add(self)
         self._work.start()
         return {"RUNNING_MODAL"}
+
+    def _check_numbers(self):
+        """Blender takes any float of a script, whatever the limits. @throws ValueError"""
+        for known in self.properties.bl_rna.properties:
+            if known.type != "FLOAT":
+                continue
+            value = getattr(self, known.identifier)
+            for number in value if known.is_array else (value,):
+                if not math.isfinite(number):
+                    raise ValueError(f"{known.name} is {number}; a finite number is needed")
 
     def modal(self, context, event):
         """Consumes every event but ESC until the worker is done, so the meshes stay as they were read."""

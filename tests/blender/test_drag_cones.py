@@ -104,6 +104,16 @@ def bowl_arrays():
     return [vertices[v] for v in used], [tuple(number[v] for v in face) for face in kept]
 
 
+def test_two_cones_cannot_go_to_one_place():
+    obj = ball()
+    tile()
+    before = everything(obj)
+    place = neighbour(obj, next(iter(cones(obj))))
+    with pytest.raises(RuntimeError, match="two cones cannot move to one vertex"):
+        move(f"0:{place} 1:{place}")
+    assert everything(obj) == before
+
+
 def test_a_map_that_would_lose_too_much_is_refused_in_a_sentence(monkeypatch):
     other = torus()
     tile()

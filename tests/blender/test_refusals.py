@@ -146,6 +146,16 @@ def test_only_the_faces_that_are_not_finite_are_left_out(value):
     assert stored_report(obj)["whole"]["unmapped_faces"] == 4
 
 
+@pytest.mark.parametrize(("dial", "name"), [("size", "Size"), ("evenness", "Evenness"), ("turn", "Rotation")])
+def test_numbers_of_scripts_that_are_none_are_named(dial, name):
+    """The limits of a property do not hold them back."""
+    obj = torus()
+    before = everything(obj)
+    with pytest.raises(RuntimeError, match=f"Error: {name} is nan; a finite number is needed"):
+        bpy.ops.uv.holomorphic_tile(**{dial: np.nan})
+    assert everything(obj) == before
+
+
 def test_poles_are_where_they_were_chosen_on_a_part_that_was_cut():
     obj = doubled(-1)
     pick(obj, [0, 40])

@@ -23,7 +23,7 @@ from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from ..tiling.tiling import Tiler
 from ..tiling.tilings import Poles, Tiling, asked_poles
-from ..tiling.turned import LATTICE, TurnedTiler, asked_turns, check_cones, check_fits, checked_lines
+from ..tiling.turned import LATTICE, TurnedTiler, asked_turns, check_chosen, check_cones, check_fits, checked_lines
 from .solver_report import Residuals, SolverReport
 
 PLACING = 0.6  # part of the work on a tiling, for finding the poles
@@ -165,13 +165,14 @@ class Structure(Value):
         placing, rounding = scaled(progress, 0.0, PLACING), scaled(progress, PLACING, 1.0)
         turns = asked_turns(turns, texture)
         lines = checked_lines(lines, turns)
+        check_chosen(marked, cones)
         check_cones(cones, turns, lines)
         if turns != 1:
             chosen = {"poles": (poles, "auto", 0), "turn": (turn, 0.0), "boundary": (boundary, "automatic")}
             chosen |= {"lattice": (lattice, "square", LATTICE.get(turns)), "max_added": (max_added,)}
             check_fits(chosen | {"allowed": (allowed,), "moves": (moves or None,)})
             tiler = self._turned_tiler(surface, turns, direction=direction, lines=lines, marked=marked, cones=cones)
-            key = tiler, tiles, evenness
+            key = tiler, _hashable(tiles), evenness
             made = self._tilings.get(key) or tiler.tile(tiles, evenness=evenness, progress=rounding)
             return self._tilings.keep(key, made)
         options = {"boundary": boundary, "allowed": allowed, "evened": evenness > 0, "surface": surface}

@@ -11,7 +11,7 @@ from ..core.array_types import Progress
 from ..mesh.checks import check_list, check_type
 from ..mesh.surface import Surface
 from ..tiling.tiling import Poles
-from ..tiling.turned import AUTOMATIC, asked_turns, checked_lines
+from ..tiling.turned import AUTOMATIC, asked_turns, check_chosen, checked_lines
 from .automatic_structure import AnyStructure
 from .map import Map
 from .map_objects import map_objects
@@ -79,6 +79,7 @@ def automatic_map(
     tiling Fairly even, seamless, a fifth is upside down, no poles
     """
     check_type(surface, Surface)
+    check_chosen(marked, cones)
     options = {"lattice": lattice, "boundary": boundary, "turn": turn, "max_turn": max_turn, "max_added": max_added}
     options |= _turning(turns, texture, lines) | {"marked": marked, "cones": cones}
     request = Request(surface, structure, main, poles, evenness, direction, options=options)
@@ -146,6 +147,7 @@ def automatic_maps(
     if not isinstance(main, str):
         check_list(main, "main")
     check_list(moves, "moves")
+    check_chosen(marked, cones)
     mains = [main] * len(parts) if isinstance(main, str) else main
     options |= _turning(turns, texture, lines)
     chosen = {"poles": poles, "allowed": allowed, "moves": moves, "marked": marked, "cones": cones}

@@ -10,6 +10,13 @@ def edge_keys(ends, vertex_count):
     return ends.min(axis=1) * vertex_count + ends.max(axis=1)
 
 
+def are_among(edges, ends, vertex_count):
+    """(#E,) whether each of the edges, (#E, 2) vertices, has one of these pairs of ends, (n, 2); others are ignored."""
+    ends = np.asarray(ends, np.int64)
+    ends = ends[((ends >= 0) & (ends < vertex_count)).all(axis=1)]
+    return np.isin(edge_keys(edges, vertex_count), edge_keys(ends, vertex_count))
+
+
 def edges_of_keys(edges, keys, vertex_count):
     """Index into `edges`, (#E, 2) vertices, of the edge with each of the keys. @pre every key is that of one edge only
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..core import arrays
 from ..core.array_types import Integers
-from .edges import edge_keys
+from .edges import are_among
 from .repairs import Cut, Refused, Repairs
 
 NO_PAIRS = arrays.frozen(np.empty((0, 2), np.int32))
@@ -90,5 +90,4 @@ def on_part(part, vertices):
 def edges_on_part(part, ends):
     """(k, 2) the part's vertices of its edges that have these ends, (n, 2) vertices of the mesh as given."""
     edges, count = np.asarray(part._native.edges), part.given_vertex_count
-    keys = edge_keys(part._origin.lowest(np.asarray(ends, np.int64)), count)
-    return edges[np.isin(edge_keys(part.vertex_index[edges], count), keys)]
+    return edges[are_among(part.vertex_index[edges], part._origin.lowest(np.asarray(ends, np.int64)), count)]

@@ -15,7 +15,7 @@ from ..core import arrays
 from ..core.array_types import Integers, Progress
 from ..core.value import quoted
 from ..mesh.checks import check_threads, checked_evenness, only_component, own_vertices, real_number
-from ..mesh.edges import boundary_edges, edge_keys
+from ..mesh.edges import are_among, boundary_edges
 from ..mesh.hard_edges import is_hard
 from ..mesh.origin import edges_on_part
 from ..mesh.surface import Surface
@@ -30,6 +30,7 @@ LATTICE = {2: "square", 4: "square", 6: "hex"}  # of which a turn by this part o
 PRICE = 2e-4  # of a cone: what it is to take off the mean square of the logarithm of the scale
 LINED_TURNS = (2, 4)  # lines cross at right angles
 WHOLE = 1e-6  # part of a turn: less is rounding
+MOST_PARTS = 1200  # of a turn around one cone: all that any use has, and no sum of them overflows
 MOST_LOST = 0.5  # part of the area: nothing is left to look at
 EDGED, MIRROR = ("whole", "free"), "mirror"  # lines along edges, and the one between two halves that are alike
 LINES = ("none", *EDGED, MIRROR)
@@ -139,19 +140,18 @@ class TurnedTiler:
 
     def _missing(self, cones):
         """(#V,) k-th turns that are missing around the vertices of the component."""
-        if not isinstance(cones, Mapping):
-            raise ValueError(f"cones is {quoted(cones)}; a dictionary from vertices to angles in full turns is needed")
         vertices, _ = own_vertices(self._surface, self._component, list(cones), "cone")
         angles = [real_number(angle, "the angle around a cone", positive=True) for angle in cones.values()]
-        parts = np.rint(np.multiply(angles, self._turns)).astype(np.int64)
-        wrong = np.flatnonzero((np.abs(np.multiply(angles, self._turns) - parts) > WHOLE) | (parts < 1))
+        parts = np.rint(np.multiply(angles, self._turns))
+        off = np.abs(np.multiply(angles, self._turns) - parts)
+        wrong = np.flatnonzero((off > WHOLE) | (parts < 1) | (parts > MOST_PARTS))
         if len(wrong):
-            wanted = f"{self._turns}, whole parts of a turn"
+            wanted = f"{self._turns}, whole parts of a turn, up to {MOST_PARTS // self._turns}"
             raise ValueError(
                 f"the angle around a cone is {angles[wrong[0]]:.6g} turns; multiples of 1/{wanted}, are needed"
             )
         missing = np.zeros(len(self._component.vertices), np.int64)
-        missing[vertices] = self._turns - parts
+        missing[vertices] = self._turns - parts.astype(np.int64)
         edge = np.flatnonzero(np.isin(vertices, boundary_edges(self._component)))
         if len(edge):
             raise TopologyError(f"vertex {list(cones)[edge[0]]} is on the boundary, where no cone can be")
@@ -183,8 +183,7 @@ def lines_of(surface: Surface, marked: ArrayLike | None = None) -> Integers:
     edges = edges if are_whole(ends[edges]) else edges[:0]
     if marked is None or not len(marked):
         return edges
-    keys = (edge_keys(each, surface._native.vertex_count) for each in (ends, marked))
-    return np.union1d(edges, np.flatnonzero(np.isin(*keys)))
+    return np.union1d(edges, np.flatnonzero(are_among(ends, marked, surface._native.vertex_count)))
 
 
 def are_whole(ends: Integers) -> bool:
@@ -201,6 +200,17 @@ def checked_lines(lines: Any, turns: int, *others: str) -> str:
     if lines not in (*others, "none") and turns not in LINED_TURNS:
         raise ValueError(f"lines is {quoted(lines)}, for which turns must be 2 or 4")
     return lines
+
+
+def check_chosen(marked: Any, cones: Any) -> None:
+    """Raises InvalidMesh for marked edges that are no pairs of vertices, ValueError for cones that are no mapping."""
+    if marked is not None:
+        arrays.integer(marked, "marked", 2, (2,))
+    if cones is None:
+        return
+    if not isinstance(cones, Mapping):
+        raise ValueError(f"cones is {quoted(cones)}; a dictionary from vertices to angles in full turns is needed")
+    arrays.integer(list(cones), "cones")
 
 
 def check_cones(cones: Any, turns: int, lines: str) -> None:

@@ -207,3 +207,28 @@ def test_parts_have_one_size(scale, lines):
     first, second = automatic_maps(both, main="seamless", turns=4, lines=lines, marked=marked + count)
     assert first.kind == second.kind == "tiling"
     assert max(first.density, second.density) < 1.1 * min(first.density, second.density)
+
+
+@pytest.mark.parametrize(
+    "marked", [5, "x", [[0.5, 1]], [[None, 1]], [[0, 2**63]], [[0, 1, 2]], np.array([[0, 1]], bool)]
+)
+def test_one_surface_refuses_wrong_marks_as_a_mesh_does(marked):
+    for make in (automatic_map, automatic_maps):
+        with pytest.raises(InvalidMesh, match="marked"):
+            make(ball(), turns=4, marked=marked)
+
+
+def test_marks_beyond_the_vertices_are_ignored():
+    """Though their pair of numbers is that of an edge, counted through."""
+    surface = ball()
+    low, high = (int(v) for v in surface._native.edges[40])
+    aliased = [[0, low * surface._native.vertex_count + high], [-1, high]]
+    assert automatic_structure(surface).tile(turns=4, lines="free", marked=aliased).lines == "none"
+    assert automatic_map(surface, main="seamless", turns=4, lines="free", marked=aliased).tiling.lines == "none"
+    marked = [[low, high]]
+    assert automatic_structure(surface).tile(turns=4, lines="free", marked=marked).lines == "free"
+
+
+def test_tiles_of_a_turned_map_are_one_number():
+    with pytest.raises(ValueError, match="tiles is \\[4\\]; a positive number is needed"):
+        automatic_structure(ball()).tile([4], turns=4)

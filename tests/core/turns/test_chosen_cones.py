@@ -3,7 +3,7 @@
 import families
 import numpy as np
 import pytest
-from holomorph import TopologyError, automatic_map, automatic_maps, automatic_structure
+from holomorph import InvalidMesh, TopologyError, automatic_map, automatic_maps, automatic_structure
 from solved import surface_of
 
 MESHES = {
@@ -89,7 +89,9 @@ def test_a_sphere_of_four_cones():
         ({5: 0.0}, ValueError, "the angle around a cone is 0.0; a positive number is needed"),
         ({5: "wide"}, ValueError, "the angle around a cone is 'wide'"),
         ({-1: 0.75}, TopologyError, "cone -1 is not a vertex"),
-        ({0.5: 0.75}, TopologyError, "cones must be a list of vertex indices"),
+        ({0.5: 0.75}, InvalidMesh, "cones has the type float64; integers are needed"),
+        ({5: 1e18}, ValueError, r"the angle around a cone is 1e\+18 turns; multiples of 1/4"),
+        ({5: 1e300}, ValueError, r"the angle around a cone is 1e\+300 turns; multiples of 1/4"),
         ([5], ValueError, "a dictionary from vertices to angles in full turns is needed"),
     ],
 )
