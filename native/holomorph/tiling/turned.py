@@ -37,6 +37,7 @@ LINES = ("none", *EDGED, MIRROR)
 AUTOMATIC = "automatic"  # the lines that cost little
 HARD = 40.0  # degrees by which a surface bends at an edge that is to be a line
 MOST_ENDS = 0.02  # of chains, for each of their edges
+MOST_OF_NET = 1.75  # edges for each vertex that they meet: a cube has 1.5, all edges of a mesh 2 or 3
 USUAL_TILES, TILES_PER_HANDLE = 400, 64  # by default, at least
 
 
@@ -176,12 +177,12 @@ def lines_of(surface: Surface, marked: ArrayLike | None = None) -> Integers:
     """The edges that lines of the lattice run along: long chains of hard edges, and smooth boundaries, ascending. None
     of these where chains end here and there: that is noise of a scan, or folds.
 
-    marked : (n, 2) vertices of the surface: edges that are lines in any case
+    marked : (n, 2) vertices of the surface: edges that are lines in any case, unless they are most of the mesh's
     """
     ends = surface._native.edges
     edges = _native.long_lines(surface._native, np.flatnonzero(is_hard(surface, HARD)))
-    edges = edges if are_whole(ends[edges]) else edges[:0]
-    if marked is None or not len(marked):
+    edges = edges if are_whole(ends[edges]) and not _is_net(ends[edges]) else edges[:0]
+    if marked is None or not len(marked) or _is_net(marked):
         return edges
     return np.union1d(edges, np.flatnonzero(are_among(ends, marked, surface._native.vertex_count)))
 
@@ -189,6 +190,12 @@ def lines_of(surface: Surface, marked: ArrayLike | None = None) -> Integers:
 def are_whole(ends: Integers) -> bool:
     """Whether few chains end, of edges with these (n, 2) vertices."""
     return np.count_nonzero(np.bincount(ends.ravel()) == 1) <= MOST_ENDS * len(ends)
+
+
+def _is_net(ends):
+    """Whether edges with these (n, 2) vertices are those of faces that lie side by side, as all are of a mesh that is
+    shaded flat."""
+    return len(ends) > MOST_OF_NET * len(np.unique(ends))
 
 
 def checked_lines(lines: Any, turns: int, *others: str) -> str:

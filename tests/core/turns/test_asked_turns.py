@@ -188,6 +188,14 @@ def test_marked_edges_of_pieces():
     assert run_along(surface, made.uv, ring).all()
 
 
+def test_marks_on_all_edges_are_no_lines():
+    """So files come that are shaded flat."""
+    for mesh in (families.geodesic_sphere(8), families.torus(24, 16)):
+        surface = surface_of(mesh)
+        made = automatic_map(surface, main="seamless", turns=4, lines="free", marked=surface._native.edges)
+        assert made.tiling.lines == "none" and made.quality.lost_part == 0
+
+
 @pytest.mark.parametrize("marked", [[1, 2], [[0.5, 1.0]], [["a", "b"]]])
 def test_marked_edges_are_pairs_of_vertices(marked):
     with pytest.raises(InvalidMesh, match="marked"):
