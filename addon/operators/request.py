@@ -28,9 +28,9 @@ ROWS = {
     "END_AT_EDGES": "whole",
     "MIRRORED": "mirror",
 }
-NO_ROWS = dict.fromkeys(("free", "whole"), "rows do not lie at its edges: there are none") | {
-    "mirror": "left and right differ: it does not mirror itself in X or Y"
-}
+NO_ROWS = dict.fromkeys(
+    ("free", "whole"), "rows do not lie at its edges: there are none, or tiles are too large for them"
+) | {"mirror": "left and right differ: none of its edges divide it into mirrored halves in X or Y"}
 LINED = (2, 4)  # turns of maps whose rows may do so
 TURNED = {2: ("square", "half"), 4: ("square", "quarter"), 6: ("hex", "sixth")}  # lattice that they leave, their name
 QUICK_TURNED = 100_000  # triangles of an object: some 12 seconds, which grow as their square
@@ -185,7 +185,7 @@ def _why_no_rows(found, results):
         asked = made.options.tiling.lines if isinstance(made, mapped.MappedObject) else "none"
         tilings = [part.tiling for part in made.tiled if part.tiling] if asked not in ("automatic", "none") else []
         if any(tiling.turns != 1 and tiling.lines == "none" for tiling in tilings):
-            yield f"{target.name}: {NO_ROWS[asked]}, or tiles are too large for them"
+            yield f"{target.name}: {NO_ROWS[asked]}"
 
 
 def _density(size, repeats):

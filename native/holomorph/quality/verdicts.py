@@ -34,6 +34,7 @@ USED = 0.4  # part of the image that islands cover: less wastes texels
 TURNED = {2: "half turns", 4: "quarter turns", 6: "sixth turns"}  # of tilings, by `Tiling.turns`
 # By `Tiling.lines`.
 LINED = {"free": "rows run along edges", "whole": "rows end at edges", "mirror": "both halves are alike"}
+NEARLY_ALL = 0.9  # part of the area of what turns
 PURPOSES = {"verdict": "To tile", "bake": "To bake"}  # of the `Verdict`s in a report
 
 
@@ -93,7 +94,7 @@ class Seen:
             sum(poles) if poles else None,
             max(lists["turns"]),
             sum(lists["cones"]),
-            next((lines for lines in lists["lines"] if lines in LINED), "none"),
+            _most_lines(lists, weights),
             float(weights @ lists["folded"]),
             unmapped,
         )
@@ -167,6 +168,15 @@ def special(poles: int | None, turns: int = 1, cones: int = 0, lines: str = "non
         return named
     words = TURNED[turns], counted(cones, "cone") if cones else "no cones", LINED.get(lines), poles and named
     return ", ".join(filter(None, words))
+
+
+def _most_lines(lists, weights):
+    """The lines of nearly all of what turns, which a sentence about the whole may name."""
+    turning = dict.fromkeys(("none", *lists["lines"]), 0.0)
+    for lines, turns, weight in zip(lists["lines"], lists["turns"], weights):
+        turning[lines] += weight if turns > 1 else 0.0
+    most = max(turning, key=turning.get)
+    return most if turning[most] >= NEARLY_ALL * sum(turning.values()) else "none"
 
 
 def _rank(value, limits):

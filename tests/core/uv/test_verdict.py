@@ -159,6 +159,22 @@ def test_poles_are_those_of_the_object():
             Seen.joined(parts, areas, 0.0)
 
 
+@pytest.mark.parametrize(
+    ("kinds", "told"),
+    [
+        (("mirror", "mirror"), "mirror"),
+        (("mirror", "none"), "none"),
+        (("none", "mirror"), "none"),
+        (("whole", "free"), "none"),
+    ],
+)
+def test_lines_are_told_where_nearly_all_has_them(kinds, told):
+    for size in (0.8, 0.01):  # of a second part, which does not count when it is small, nor a third that does not turn
+        parts = [Seen(turns=4, lines=lines) for lines in kinds] + [Seen()]
+        found = Seen.joined(parts, [1 - size, size, 1], 0.0)
+        assert found.lines == (kinds[0] if size < 0.1 else told)
+
+
 def two_sizes(scale):
     """Two tori of which one is `scale` times as large."""
     mesh = families.torus(24, 12)
