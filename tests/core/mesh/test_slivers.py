@@ -25,8 +25,10 @@ def surface_of(mesh, strict=True):
 
 
 def kinds(mesh):
-    """The kinds of the maps of the parts, none of which is refused. Of any direction: of rows around a tube, level or at
-    a slant, of which whole tiles have one size, rounding chooses."""
+    """The kinds of the maps of the parts, none of which is refused.
+
+    Of any direction: of rows around a tube, level or at a slant, of which whole tiles have one size, rounding chooses.
+    """
     surface = surface_of(mesh, strict=False)
     assert not surface.refused
     return [made.kind for made in automatic_maps(surface, direction=None)]
