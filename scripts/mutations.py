@@ -211,7 +211,9 @@ MUTATIONS = (
         PACKAGE + "quality/verdicts.py",
         ("unseen", "UNSEEN = 0.3", "UNSEEN = 0.6", EVENED),
         ("by-area", 'weights @ lists["cost"]', 'np.mean(lists["cost"])', VERDICT),
-        ("told-overlaps", "cost(quality) - of_overlaps(quality)", "cost(quality)", VERDICT),
+        ("told-overlaps", "cost(quality, seen) - of_overlaps(quality)", "cost(quality, seen)", VERDICT),
+        ("little-tiled", "TILED = 0.1 ", "TILED = 0.05 ", VERDICT),
+        ("whole-cost", "cost(quality) + seen.cost", "cost(quality)", VERDICT),
         ("folded", "if seen.folded > FOLDED", "if seen.folded > 9", VERDICT),
     )
     | of(

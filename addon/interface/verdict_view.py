@@ -9,7 +9,6 @@ from ..native import holomorph
 from ..results import stored, symmetric
 from . import lines
 
-REPAIR = "mesh.holomorphic_repair"
 SYMMETRIC = "uv.holomorphic_make_symmetric"
 SHOWN_TURNS = "This texture shows its turns: seams are seen where the map turns"
 EDITED = "Before the last edit:"
@@ -17,7 +16,7 @@ ICONS = {"good": "CHECKMARK", "fair": "NONE", "poor": "ERROR", "unusable": "ERRO
 
 
 def draw(layout, context, text, tile_operator, is_edited=False):
-    """Out of a stored report; the operator is offered where seams are in view, and where poles would help.
+    """Out of a stored report; the operator is offered where poles might help.
 
     is_edited : whether the mesh is another than then: the verdict has no tick
     """
@@ -27,8 +26,6 @@ def draw(layout, context, text, tile_operator, is_edited=False):
     box = layout.box().column(align=True)
     if read_of.whole:
         lines.draw(box, context, read_of.whole)
-    if read_of.joined:  # Blender's own operator is grey outside of Edit Mode
-        box.operator(REPAIR, text=f"Merge {read_of.joined:,} Vertices").kinds = {"WELD"}
     if is_edited:
         lines.draw(box, context, EDITED, "INFO")
     for level, sentence in zip(read_of.levels, read_of.told):
@@ -38,9 +35,8 @@ def draw(layout, context, text, tile_operator, is_edited=False):
         box.operator(SYMMETRIC)
     if read_of.places:
         lines.draw(box, context, read_of.places)
-        box.operator(tile_operator, text="Add Poles There").poles = "COARSE"
-    elif read_of.has_seams:
-        box.operator(tile_operator, text="Make It Seamless")
+        pressed = box.operator(tile_operator, text="Try Poles There")
+        pressed.poles, pressed.is_trial = "COARSE", True
     for name, value in read_of.numbers:
         row = box.split(factor=0.72)
         row.label(text=name)
@@ -50,34 +46,26 @@ def draw(layout, context, text, tile_operator, is_edited=False):
 class Read(NamedTuple):
     """What a panel shows of a stored report.
 
-    joined : vertices that were joined for the maps, and are apart in the mesh; levels, told : of the verdicts
-    has_seams : in view; places : sentence about coarse ones; numbers : see there
+    levels, told : of the verdicts; places : sentence about coarse ones; numbers : see there
     """
 
     whole: str
-    joined: int
     levels: list
     told: list
-    has_seams: bool
     places: str
     numbers: list
 
 
 @functools.lru_cache(maxsize=16)
 def read(text):
-    """The `Read` of a stored report; None if there is none, or someone has edited it."""
+    """The `Read` of a stored report; None if there is none."""
     entry = stored.parsed(text)
-    try:
-        found, places = stored.verdicts(entry), entry.get("coarse_places")
-        if not found:
-            return None
-        coarse = stored.coarse_sentence(places) if places else ""
-        levels, told = [one.level for one in found], holomorph.quality.verdicts.told(entry)
-        joined, seams = stored.joined(entry), entry["whole"]["seams"] or 0.0
-        has_seams = seams > holomorph.quality.verdicts.IN_VIEW
-        return Read(stored.whole(entry), joined, levels, told, has_seams, coarse, numbers(entry))
-    except (KeyError, TypeError, IndexError, AttributeError):
+    if not entry:
         return None
+    places = entry.get("coarse_places")
+    coarse = stored.coarse_sentence(places) if places else ""
+    levels, told = [one.level for one in stored.verdicts(entry)], holomorph.quality.verdicts.told(entry)
+    return Read(stored.whole(entry), levels, told, coarse, numbers(entry))
 
 
 def numbers(entry):

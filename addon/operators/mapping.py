@@ -19,7 +19,8 @@ class _MapsOperator(OnMeshes, WorkOperator):
 
         objects, choices = gathering.mesh_objects(context), request.choices(self)
         self._own = self._own_texture()
-        self._run = request.Run(self, targets.collect(objects, choices), self._own)
+        self._run = request.Run(self, targets.collect(objects, choices), self._own, self.is_trial)
+        self.is_trial = False  # what the redo panel asks for later is written in any case
 
     def _own_texture(self):
         """The `user_texture.Own` that was chosen. If there is none, the redo panel says why; it must not vanish, so

@@ -84,6 +84,7 @@ ABOUT = {
     "turns": "By what the texture may turn from one side of a cut to the other: squares are then more even, and there "
     "are no poles. A texture that looks different after the turn shows seams. No effect on islands and maps with seams",
     "rows": "Where rows of the texture lie on a map that turns by halves or quarters: at hard edges, or anywhere",
+    "is_trial": "Keep the map of before where the new one is no better",
     "seams": "Mark the edges where the maps are cut as seams; existing seams are kept",
     "main": "Kind of the main map",
     "forms": "Largest number of maps of single forms, besides the main one: one for each handle, more with holes",
@@ -155,6 +156,7 @@ class SharedProperties:
     turns: EnumProperty(name="Turns", description=ABOUT["turns"], items=TURNS, default="FROM_TEXTURE")
     rows: EnumProperty(name="Rows", description=ABOUT["rows"], items=ROWS, default="AUTOMATIC")
     seams: BoolProperty(name="Mark Seams", description=ABOUT["seams"], default=False)
+    is_trial: BoolProperty(name="Trial", description=ABOUT["is_trial"], default=False, options={"HIDDEN", "SKIP_SAVE"})
     form_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
     tile_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
 

@@ -10,7 +10,7 @@ from ..maps import mapped
 from ..maps.mapped import TILING, MapOptions, TileOptions
 from ..materials import material, textures
 from ..materials.user_texture import AUTOMATIC, IMAGE, MATERIAL
-from ..results import report, stored, symmetric, write
+from ..results import advice, report, stored, symmetric, write
 from ..results.write import WriteOptions
 from ..scene import gathering, mesh_io, targets
 from ..solving import jobs
@@ -44,10 +44,12 @@ class Run:
     @throws ValueError there is nothing of what is asked for on one of them
 
     own : the `user_texture.Own` that is their texture, None for one of ours
+    is_trial : whether maps that cost an eye no less than those of before are not written
     """
 
-    def __init__(self, properties, found, own=None):
+    def __init__(self, properties, found, own=None, is_trial=False):
         self.tasks, self._found, self._is_equal = targets.tasks(found), found, properties.equal
+        self._is_trial = is_trial
         own = own and symmetric.as_before(own, self.objects)
         options = _tile_options if properties.is_tiling else _map_options
         self._options = [options(properties, target, own) for target in found if not target.refused]
@@ -67,6 +69,8 @@ class Run:
     def write(self, step, job, time_has_passed=False):
         """Writes the results of the job, in a `transaction.Step` of the objects. Returns the `report.Outcome`."""
         results = targets.align(self._found, job.results)
+        if self._is_trial:
+            results = list(map(advice.tried, self._found, results))
         outcome = write.write(step, self._found, results, self._write_options, time_has_passed)
         outcome.notes += filter(None, [*self._notes, *_why_no_rows(self._found, results)] if outcome.done else [])
         return outcome

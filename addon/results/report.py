@@ -107,7 +107,6 @@ def run_report(entries):
 
 
 NAMED = 4  # parts that a message numbers
-MERGE = "Mesh > Merge > By Distance"
 UNUSED = "your choice was not used"
 OVERLAP = "UV > Select Overlap shows where"
 CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
@@ -153,10 +152,6 @@ class Outcome:
         self.forms = max(self.forms, made.solved.form_count)
         self.judge(obj, entry)
         self.problems += _problems(obj, made)
-        if len(made.solved.surface.repairs.joined_vertices):
-            self.notes.append(
-                f"{obj.name}: faces side by side were apart, and were joined for the maps; {MERGE} joins them"
-            )
         if target.polygons.faces is None:
             self.notes += _modifier_notes(obj, made.solved)
         extra = sum(w.kind == "attribute" for w in written)

@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads stored reports: for panels, and for operators that go on with a tiling.
-
-Someone may have edited a report: then less can be read.
-"""
+"""Reads stored reports: for panels, and for operators that go on with a tiling."""
 
 import functools
 import json
+from dataclasses import fields
 
 import numpy as np
 
 from ..maps.mapped import TileOptions
 from ..native import holomorph
 from ..scene import mesh_io
+from . import shape
 
 SUMMARISED = 8  # parts that a panel shows
 SHOWN_PERIODS = 4  # likewise, of each part
@@ -19,12 +18,12 @@ SHOWN_PERIODS = 4  # likewise, of each part
 
 @functools.lru_cache(maxsize=16)
 def parsed(stored):
-    """Parses a stored report; an empty one if there is none, or if the text is not a report."""
+    """Parses a stored report; an empty one if there is none, or if what is stored has not the `shape` of a report."""
     try:
         entry = json.loads(stored)
-    except (ValueError, TypeError):
+    except (ValueError, TypeError, RecursionError):
         return {}
-    return entry if isinstance(entry, dict) else {}
+    return entry if shape.fits(entry, shape.report()) else {}
 
 
 def tilings(stored):
@@ -59,7 +58,8 @@ def asked(stored):
     """The `mapped.TileOptions` that a tiling was made with, but for where its poles may be; None where there are
     none."""
     values = parsed(stored).get("asked")
-    return None if values is None else TileOptions(**{name: as_tuple(value) for name, value in values.items()})
+    known = [one.name for one in fields(TileOptions)]
+    return None if values is None else TileOptions(**{name: as_tuple(values[name]) for name in known if name in values})
 
 
 def as_tuple(value):
@@ -94,10 +94,8 @@ def is_edited(entry, mesh):
 @functools.lru_cache(maxsize=16)
 def summary(stored):
     """Short lines for the panel."""
-    try:
-        return list(_summary(parsed(stored)))
-    except (ValueError, KeyError, TypeError, IndexError):
-        return []
+    entry = parsed(stored)
+    return list(_summary(entry)) if entry else []
 
 
 def _summary(entry):
@@ -133,9 +131,9 @@ def _result_lines(part):
     yield f"angle distortion {part['main_map']['mean_angle']:.4f}"
     if part.get("modulus") is not None:
         yield f"modulus {part['modulus']:.6g}"
-        if part["modulus_bounds"] is not None:
+        if part.get("modulus_bounds"):
             yield "    between {:.6g} and {:.6g}".format(*part["modulus_bounds"])
-    if part["genus"] == 1 and part["boundary_count"] == 0 and "period_matrix" in part:
+    if part["genus"] == 1 and part["boundary_count"] == 0 and part.get("period_matrix"):
         real, imaginary = part["period_matrix"][0][0]
         yield f"tau = {round(real, 4) + 0.0:.4f} + {imaginary:.4f} i"
 

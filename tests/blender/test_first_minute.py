@@ -1,5 +1,6 @@
 """What is seen after the button: the viewport, the verdict in words, coarse places and the button for poles there."""
 
+import json
 from types import SimpleNamespace
 
 import bmesh
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 from drawn_panel import Drawn, drawn
 from loaded_addon import module
-from scenes import mesh_io, mesh_object, run, select, shown_scale, sphere_arrays, stored_report, torus, uv
+from scenes import everything, mesh_io, mesh_object, run, select, shown_scale, sphere_arrays, stored_report, torus, uv
 
 reports, lines, viewport = map(module, ("results.stored", "interface.lines", "materials.material"))
 
@@ -156,19 +157,18 @@ def test_the_kinds_of_parts_are_the_first_line():
     assert first.startswith("2 parts: 1 ") and "1 flat" in first
 
 
-def test_vertices_that_were_joined_are_offered_to_be_merged():
+def test_vertices_that_were_joined_are_told_and_not_offered_to_be_merged():
+    """The map is that of the merged mesh already."""
     vertices, faces = sphere_arrays(4)
-    assert not drawn_after_run(mesh_object("Whole", vertices, faces)).buttons
     corners = np.concatenate([list(face) for face in faces])
     ends = np.cumsum([len(face) for face in faces])
     apart = [tuple(range(end - len(face), end)) for face, end in zip(faces, ends)]
-    layout = drawn_after_run(mesh_object("Apart", np.array(vertices)[corners], apart))
-    apart_count = len(corners) - len(vertices)
-    assert layout.buttons[0] == f"Merge {apart_count:,} Vertices" and "vertices joined" in layout.texts[0]
-    name, properties = layout.calls[0]
-    group, operator = name.split(".")
-    assert getattr(getattr(bpy.ops, group), operator)(**vars(properties)) == {"FINISHED"}
-    assert len(bpy.context.object.data.vertices) == len(vertices)
+    obj = mesh_object("Apart", np.array(vertices)[corners], apart)
+    layout, joined = drawn_after_run(obj), stored_report(obj)["whole"]["cost"]
+    assert not layout.buttons and f"{len(corners) - len(vertices):,} vertices joined" in layout.texts[0]
+    assert bpy.ops.mesh.holomorphic_repair(kinds={"WELD"}) == {"FINISHED"}
+    drawn_after_run(obj)
+    assert len(obj.data.vertices) == len(vertices) and stored_report(obj)["whole"]["cost"] == pytest.approx(joined)
 
 
 def drawn_after_run(obj):
@@ -270,7 +270,9 @@ def test_faces_that_single_precision_loses_are_told():
 def test_the_button_puts_poles_where_it_is_coarse():
     obj = spikes()
     run()
-    assert "Add Poles There" in drawn(obj).buttons
+    layout = drawn(obj)
+    assert layout.buttons == ["Try Poles There"]
+    assert vars(layout.calls[0][1]) == {"poles": "COARSE", "is_trial": True}
     bpy.ops.uv.holomorphic_tile(poles="COUNT", pole_count=2, evenness=0)
     before = stored_report(obj)
     places, poles = before["coarse_places"], before["components"][0]["tiling"]["poles"]
@@ -279,6 +281,25 @@ def test_the_button_puts_poles_where_it_is_coarse():
     made = set(after["tiling"]["poles"])  # a pole whose residue is rounded to 0 is none
     assert len(places) > 0 and len(made) > 2 and made <= {*poles, *(place["vertex"] for place in places)}
     assert after["main_map"]["size_range"] < before["components"][0]["main_map"]["size_range"]
+
+
+@pytest.mark.parametrize("is_better", [True, False])
+def test_poles_that_are_tried_stay_where_the_map_costs_an_eye_less(is_better):
+    obj = spikes()
+    run()
+    entry = stored_report(obj)
+    cost = entry["whole"]["cost"]
+    if not is_better:
+        entry["whole"]["cost"] = 0.0
+    obj["holomorph_report"] = json.dumps(entry)
+    before = everything(obj)
+    if is_better:
+        assert bpy.ops.uv.holomorphic_tile(poles="COARSE", is_trial=True) == {"FINISHED"}
+        assert stored_report(obj)["whole"]["cost"] < cost
+    else:
+        with pytest.raises(RuntimeError, match="Spikes: it would be no better: .*the map stays as it is"):
+            bpy.ops.uv.holomorphic_tile(poles="COARSE", is_trial=True)
+        assert everything(obj) == before and bpy.ops.uv.holomorphic_tile(poles="COARSE") == {"FINISHED"}
 
 
 def test_poles_are_off_the_boundary():

@@ -182,7 +182,7 @@ def test_faces_that_are_all_apart_are_joined_and_told_of():
     assert run() == {"FINISHED"}
     (part,) = stored_report(obj)["components"]
     assert (part["genus"], part["boundary_count"]) == (1, 0)
-    assert any("By Distance" in line for line in written(obj, main="BALANCED").notes)
+    assert any("vertices joined" in line for line in written(obj, main="BALANCED").problems)
 
 
 def test_maps_of_an_earlier_run_survive_a_refusal():

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ..core.value import plain
 from ..forms.form_structure import CertifiedStructure
 from ..quality.quality import Quality
-from ..quality.verdicts import Seen, Verdict, baking, verdict
+from ..quality.verdicts import Seen, Verdict, baking, total_cost, verdict
 from .arrangement import Arrangement, square
 
 if TYPE_CHECKING:
@@ -199,6 +199,7 @@ class Whole:
     sizes : how many times as long squares of one part are as those of another at most
     unmapped_faces : number of faces without a map
     seams : length of those in view over the root of the area, the mean over the parts
+    cost : of the maps of all parts together, see `appearance.cost`
     verdict, bake : the `Verdict`s on the maps of all parts together, see `verdict` and `baking`
     """
 
@@ -208,6 +209,7 @@ class Whole:
     sizes: float
     unmapped_faces: int
     seams: float | None
+    cost: float
     verdict: Verdict
     bake: Verdict
 
@@ -237,7 +239,8 @@ def whole(
     used = 0.0 if tiled else square(maps, arrangement).used
     bake = baking(quality.overlapping_part or 0.0, tiled, used)
     text = "; ".join(_words(maps, spread, left_out, repairs))
-    figures = quality.mean_angle, quality.size_range, spread, sum(part["faces"] for part in left_out), seen.seams
+    unmapped = sum(part["faces"] for part in left_out)
+    figures = quality.mean_angle, quality.size_range, spread, unmapped, seen.seams, total_cost(quality, seen)
     return Whole(text, *figures, verdict(quality, seen), bake)
 
 

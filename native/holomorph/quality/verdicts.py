@@ -29,6 +29,8 @@ SHEAR = (None, "slightly sheared", "sheared", "badly sheared")
 UNSEEN = 0.3  # angle distortion that evening may add unseen at evenness 1: it is spread out, and squares have one size
 LOST = 0.002  # part of the area that is flipped, has collapsed or has no map: less is not told
 IN_VIEW, FOLDED = 0.05, 0.1  # lengths of seams and of folds over the root of the area: less is not told
+SHORT = 0.25  # likewise, of seams whose length is not told
+TILED = 0.1  # part of the area that has tilings: poles, turns and cones of less are not told
 OVERLAPPING = 1e-6, 0.01, 0.2  # part of the map that islands cover twice: less is rounding, and the limits of levels
 USED = 0.4  # part of the image that islands cover: less wastes texels
 TURNED = {2: "half turns", 4: "quarter turns", 6: "sixth turns"}  # of tilings, by `Tiling.turns`
@@ -63,7 +65,8 @@ class Seen:
     cost : of what follows, as in `appearance.cost`; over several parts the mean by area
     seams, hidden : lengths over the root of the area of those in view, and of those that hard edges hide; None where
         that is not known
-    poles, cones : how many tilings have, poles None without tilings; turns, lines : as in `Tiling`
+    poles, cones : how many tilings have, poles None without tilings; turns, lines : as in `Tiling`; not of tilings of
+        less than a tenth of the area
     folded : length of the edges at which the mesh is folded over itself, likewise
     unmapped : part of the area that has no map
     """
@@ -87,13 +90,14 @@ class Seen:
         weights = weights / weights.sum() if weights.any() else np.full(len(parts), 1 / len(parts))
         lists = {field.name: [getattr(part, field.name) for part in parts] for field in fields(cls)}
         poles, seams = ([value for value in lists[name] if value is not None] for name in ("poles", "seams"))
+        is_tiled = weights @ [value is not None for value in lists["poles"]] >= TILED
         return cls(
             float(weights @ lists["cost"]),
             float(weights @ [value or 0.0 for value in lists["seams"]]) if seams else None,
             float(weights @ lists["hidden"]),
-            sum(poles) if poles else None,
-            max(lists["turns"]),
-            sum(lists["cones"]),
+            sum(poles) if is_tiled else None,
+            max(lists["turns"]) if is_tiled else 1,
+            sum(lists["cones"]) if is_tiled else 0,
             _most_lines(lists, weights),
             float(weights @ lists["folded"]),
             unmapped,
@@ -120,9 +124,8 @@ def verdict(quality: Quality, seen: Seen = Seen()) -> Verdict:
     """
     if not quality.area.any():
         return Verdict("unusable", "No texture is visible: the map has no area")
-    shear, blank = quality.mean_angle - quality.unseen_angle, quality.lost_part - quality.flipped_part + seen.unmapped
-    squares = cost(quality) - of_overlaps(quality) - SHEAR_COST * quality.unseen_angle
-    rank = _rank(squares + seen.cost + FLIPPED * blank, COSTS)
+    shear = quality.mean_angle - quality.unseen_angle
+    rank = _rank(total_cost(quality, seen) - of_overlaps(quality) - SHEAR_COST * quality.unseen_angle, COSTS)
     uneven = _rank(quality.size_range, UNEVEN)
     squares_of = f" (squares of 1 to {_factor(quality.size_range)})" if uneven > 1 else ""
     losses = {"flipped or collapsed": quality.lost_part, "without a map": seen.unmapped}
@@ -139,6 +142,12 @@ def verdict(quality: Quality, seen: Seen = Seen()) -> Verdict:
     return Verdict(LEVELS[rank], sentence[0].upper() + sentence[1:])
 
 
+def total_cost(quality: Quality, seen: Seen) -> float:
+    """`appearance.cost` of a map of which this is seen besides its squares; what has no map counts as flipped."""
+    blank = quality.lost_part - quality.flipped_part + seen.unmapped
+    return cost(quality) + seen.cost + FLIPPED * blank
+
+
 def baking(overlapping: float, tiled: float, used: float) -> Verdict:
     """The `Verdict` on a map as one into which textures are baked.
 
@@ -146,8 +155,8 @@ def baking(overlapping: float, tiled: float, used: float) -> Verdict:
         of the image that is covered
     """
     if tiled > 0:
-        where = "" if tiled > 1 - LOST else f" on {_percent(tiled)} of the area"
-        return Verdict("fair", f"Not as it lies: whole tiles cover each other{where}")
+        where = "this one" if tiled > 1 - LOST else f"{_percent(tiled)} of this one"
+        return Verdict("fair", f"Press Bake Tiling for a second map: on {where}, tiles lie on top of each other")
     rank, space = _rank(overlapping, OVERLAPPING), f"{_percent(used)} of the image is used"
     overlaps = f"{_percent(overlapping)} of it overlaps" if rank else "Nothing overlaps"
     return Verdict(LEVELS[max(rank, int(used < USED))], f"{overlaps}, {space}")
@@ -188,8 +197,10 @@ def _seams(seen):
     """Whether seams are in view, where that is known."""
     if seen.seams is None:
         return None
+    if seen.seams > SHORT:
+        return f"seams in view ({_factor(seen.seams)} times its size)"
     if seen.seams > IN_VIEW:
-        return f"seams in view ({_factor(seen.seams)} of its size)"
+        return "short seams in view"
     if seen.hidden > IN_VIEW:
         return "seams at hard edges"
     return "no seams" if seen.poles is None else "seamless"

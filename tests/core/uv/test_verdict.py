@@ -49,8 +49,10 @@ def test_what_overlaps_is_told_of_a_bake_alone():
     levels = [baking(part, 0.0, 0.9).level for part in (0.0, OVERLAPPING[0], *(1.01 * part for part in OVERLAPPING))]
     assert levels == ["good", "good", "fair", "poor", "unusable"]
     assert baking(0.02, 0.0, 0.9).sentence == "2 % of it overlaps, 90 % of the image is used"
-    assert baking(0.0, 0.0, 0.1).level == "fair" and baking(0.0, 1.0, 0.9).sentence.endswith("cover each other")
-    assert baking(0.0, 0.25, 0.9).sentence.endswith(" on 25 % of the area")
+    assert baking(0.0, 0.0, 0.1).level == "fair"
+    lies = "tiles lie on top of each other"
+    for part, where in ((1.0, "this one"), (0.25, "25 % of this one")):
+        assert baking(0.0, part, 0.9).sentence == f"Press Bake Tiling for a second map: on {where}, {lies}"
 
 
 def test_a_map_without_distortion_is_good():
@@ -65,7 +67,8 @@ def test_a_map_without_distortion_is_good():
         ({}, {"poles": 0, "seams": 0.0}, "Even, seamless, no poles"),
         ({}, {"seams": 0.0}, "Even, no seams"),
         ({}, {"seams": 0.04, "hidden": 3.0}, "Even, seams at hard edges"),
-        ({}, {"seams": 1.27, "hidden": 3.0}, "Even, seams in view (1.3 of its size)"),
+        ({}, {"seams": 1.27, "hidden": 3.0}, "Even, seams in view (1.3 times its size)"),
+        ({}, {"seams": 0.1, "hidden": 3.0}, "Even, short seams in view"),
         ({"size_range": 1.5**0.5}, {}, "Even"),
         ({"size_range": 2.5**0.5}, {}, "Fairly even"),
         ({"size_range": 2.0}, {}, "Uneven (squares of 1 to 2)"),
@@ -159,6 +162,15 @@ def test_poles_are_those_of_the_object():
             Seen.joined(parts, areas, 0.0)
 
 
+@pytest.mark.parametrize(("part", "is_told"), [(0.09, False), (0.11, True)])
+def test_tilings_of_little_area_are_not_told(part, is_told):
+    """Such as a knob beside flat leaves."""
+    tiled = Seen(poles=3, turns=4, cones=8, lines="mirror", seams=0.0)
+    found = Seen.joined([Seen(seams=0.0), tiled], [1 - part, part], 0.0)
+    assert (found.poles, found.turns, found.cones) == ((3, 4, 8) if is_told else (None, 1, 0))
+    assert ("quarter turns" in verdict(Measured(), found).sentence) == is_told
+
+
 @pytest.mark.parametrize(
     ("kinds", "told"),
     [
@@ -200,6 +212,12 @@ def test_parts_without_a_map_count_by_area(scale, is_seen):
     assert found["whole"]["text"] == f"{len(left.face_index)} faces left out"
     assert ("without a map" in found["verdict"]["sentence"]) == is_seen
     assert whole_report([], parts[1:], surface.repairs) == {"verdict": None, "bake": None, "whole": None}
+
+
+def test_the_cost_of_a_part_is_that_by_which_it_was_chosen():
+    made = map_of(families.torus(9, 6))
+    found = whole_report([made], [part_report(made)], made.surface.repairs)
+    assert found["whole"]["cost"] == pytest.approx(made.cost, rel=1e-12)
 
 
 def test_parts_without_area_are_not_mentioned():
