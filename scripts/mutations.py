@@ -274,6 +274,7 @@ MUTATIONS = (
         PACKAGE + "quality/direction.py",
         ("direction-steep", "STEEP = 0.35", "STEEP = 0.2", DIRECTION),
         ("direction-turns", "period = 360 / turns", "period = 180 / turns", DIRECTION),
+        ("direction-slanted", "SLANTED = 25.0", "SLANTED = 20.0", DIRECTION),
     )
     | of(ROOM + "turns/turned_space.cpp", ("lines-parts", "% 2 == 0 ? 1 : 0;", "% 2 == 0 ? 0 : 1;", LINES))
     | of(

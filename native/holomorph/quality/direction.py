@@ -15,8 +15,9 @@ from ..core.value import Value
 AXIS = {"Y": 1, "Z": 2}  # of positions, by `Surface.up`
 STEEP = 0.35  # least sine of the angle between the normal of a triangle and the vertical
 UPRIGHT, SIDEWAYS, UPSIDE_DOWN = 15.0, 20.0, 160.0  # degrees: from up at most, from a right angle at most, at least
+SLANTED = 25.0  # degrees from up at least: less is hardly seen on a rounded surface
 
-SAID = 0.1  # part of the area
+SAID, SAID_SLANTED = 0.1, 0.25  # parts of the area
 FRACTIONS = {
     "a tenth": 0.1,
     "a fifth": 0.2,
@@ -92,15 +93,22 @@ class Direction(Value):
         """Part of the steep area where it stands on its head, within 20 degrees."""
         return self._part(self.angle >= UPSIDE_DOWN)
 
+    @cached_property
+    def slanted_part(self) -> float:
+        """Part of the steep area where it does neither, and leans by 25 degrees or more."""
+        return self._part(self.angle >= SLANTED) - self.sideways_part - self.upside_down_part
+
     @property
     def words(self) -> str:
-        """How much of the steep area is upside down, or lies on its side, such as "a fifth is upside down"; "" where
-        that is less than a tenth of the whole area."""
-        parts = {"upside down": self.upside_down_part, "sideways": self.sideways_part}
-        name = max(parts, key=lambda name: parts[name])
-        if parts[name] * self.steep_part < SAID:
+        """How much of the steep area is upside down, or lies on its side, such as "a fifth is upside down"; where that
+        is less than a tenth of the whole area, how much is slanted; "" where that is less than a quarter of it."""
+        part, name = max((self.upside_down_part, "upside down"), (self.sideways_part, "sideways"))
+        least = SAID
+        if part * self.steep_part < least:
+            part, name, least = self.slanted_part, "slanted", SAID_SLANTED
+        if part * self.steep_part < least:
             return ""
-        return f"{min(FRACTIONS, key=lambda text: abs(FRACTIONS[text] - parts[name]))} is {name}"
+        return f"{min(FRACTIONS, key=lambda text: abs(FRACTIONS[text] - part))} is {name}"
 
     def _part(self, flags):
         return float(self.steep[flags].sum() / self.steep.sum()) if self.steep_part > 0 else 0.0

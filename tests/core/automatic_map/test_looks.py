@@ -83,8 +83,10 @@ LOOKS = {
         "tiling", (3, 3), 3.0, 4.4, 1.31, (2.9, 3.6), "Fairly even, slightly sheared, a quarter is upside down"
     ),
     "limbs": Looks("tiling", (6, 6), 2.9, 8.5, 1.4, (4.1, 4.8), "Fairly even, slightly sheared, a fifth is sideways"),
-    "spikes": Looks("tiling", (4, 4), 2.6, 5.0, 1.18, (2.8, 3.6), "Fairly even"),
-    "ball of n-gons": Looks("tiling", (8, 8), 2.4, 6.6, 1.26, (2.4, 3.1), "Fairly even, slightly sheared"),
+    "spikes": Looks("tiling", (4, 4), 2.6, 5.0, 1.18, (2.8, 3.6), "Fairly even, a third is slanted"),
+    "ball of n-gons": Looks(
+        "tiling", (8, 8), 2.4, 6.6, 1.26, (2.4, 3.1), "Fairly even, slightly sheared, half is slanted"
+    ),
     "washer": Looks("mixed", (0, 0), 1 + 1e-6, 1 + 1e-6, 1 + 1e-6, (5.8, 7.2), "Even"),
     "block": Looks("islands", (0, 0), 1.04, 1.08, 1.02, (8.9, 10.9), "Even"),
     "bowl": Looks("tiling", (4, 4), 2.8, 6.1, 1.17, (2.8, 3.5), "Fairly even"),

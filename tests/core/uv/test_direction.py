@@ -74,6 +74,8 @@ def test_what_is_wrong_is_said_in_words():
     part = np.cumsum(found.steep) < 0.21 * found.steep.sum()
     assert replace(found, angle=np.where(part, 175.0, 5.0)).words == "a fifth is upside down"
     assert replace(found, angle=np.where(part, 30.0, 5.0)).words == ""
+    assert replace(found, angle=np.where(part, 5.0, 26.0)).words == "three quarters is slanted"
+    assert replace(found, angle=np.where(part, 5.0, 24.0)).words == ""
 
 
 def test_a_box_stands_upright_whatever_its_map():
