@@ -87,16 +87,20 @@ class _Crew:
 
     def results(self, work, threads):
         """{k: result}."""
-        with ThreadPoolExecutor(min(threads, len(self._shares))) as pool:
+        left, found = iter(self._shares), {}
+        begun = [[] for _ in range(min(threads, len(self._shares)))]  # parts that each thread has begun
+        with ThreadPoolExecutor(len(begun)) as pool:
             try:
-                made = {k: pool.submit(self._one, work, k) for k in self._shares}
-                if not self._watch(made.values()):
+                crew = [pool.submit(self._several, work, left, found, own) for own in begun]
+                if not self._watch(crew):
                     raise Cancelled("cancelled by the progress function")
             finally:
                 self._goes_on = False  # for those that still work when another has failed
-        failed = [k for k in sorted(made) if made[k].exception() is not None]
-        stopped = [k for k in failed if not isinstance(made[k].exception(), Cancelled)]
-        return {k: made[k].result() for k in [*stopped, *failed, *made]}
+        failed = sorted((own[-1], k) for k, own in enumerate(begun) if crew[k].exception() is not None)
+        stopped = [each for each in failed if not isinstance(crew[each[1]].exception(), Cancelled)]
+        for _, k in [*stopped, *failed]:
+            crew[k].result()  # raises
+        return found
 
     def _watch(self, pending: Sequence[Future]):
         """Waits until all are done or one has failed; False if the progress function cancels."""
@@ -114,13 +118,15 @@ class _Crew:
         done = self._before + sum(self._done.values())
         return self._progress(min(done, 1.0), self._stage) is not False
 
-    def _one(self, work, k):
-        ask = self._asked_by(k)
-        if not ask(0.0, self._stage):
-            raise Cancelled("cancelled before a part was begun")
-        result = work(k, 1, ask)
-        ask(1.0, self._stage)
-        return result
+    def _several(self, work, left, found, begun):
+        """Takes one part after the other: thousands of tasks would take long to wait for."""
+        for k in left:
+            if not self._goes_on:
+                return
+            begun.append(k)
+            ask = self._asked_by(k)
+            found[k] = work(k, 1, ask)
+            ask(1.0, self._stage)
 
     def _asked_by(self, k):
         def ask(fraction, stage):

@@ -1,0 +1,46 @@
+"""Small meshes that cost much where an algorithm compares all with all: vertices and polygons, about n of these."""
+
+import numpy as np
+
+
+def ring(n, radius=1.0, turns=1):
+    angle = 2 * np.pi * turns * np.arange(n) / n
+    return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), np.zeros(n)])
+
+
+def fan(n):
+    """The cap of a turned part: n triangles around one vertex."""
+    return np.vstack([[0, 0, 0.3], ring(n)]), [[0, 1 + i, 1 + (i + 1) % n] for i in range(n)]
+
+
+def spiral(n):
+    """Around one vertex twice: it lies over itself when it is flat."""
+    rim = ring(n + 1, turns=2) + [0, 0, 0.02] * np.arange(n + 1)[:, None] / n
+    return np.vstack([[0, 0, 0], rim]), [[0, 1 + i, 2 + i] for i in range(n)]
+
+
+def stairs(n):
+    """Round an axis ten times, in long steps."""
+    height = [0, 0, 5.0] * np.arange(n + 1)[:, None] / n
+    points = np.vstack([ring(n + 1, radius, 10) + height for radius in (0.2, 1.0)])
+    return points, [[i, i + 1, n + 2 + i, n + 1 + i] for i in range(n)]
+
+
+def soup(n):
+    """Triangles apart from each other."""
+    return np.random.default_rng(0).random((3 * n, 3)), np.arange(3 * n).reshape(-1, 3).tolist()
+
+
+def star(n):
+    """One polygon with n / 2 points."""
+    return ring(n) * np.where(np.arange(n) % 2, 1.5, 1.0)[:, None], [list(range(n))]
+
+
+def ribbon(n):
+    """A coil, one quad wide."""
+    angle = 0.1 * np.arange(n + 1)
+    coil = [np.column_stack([r * np.cos(angle), r * np.sin(angle), 0.02 * angle]) for r in (1, 1.1)]
+    return np.vstack(coil), [[i, i + 1, n + 2 + i, n + 1 + i] for i in range(n)]
+
+
+SHAPES = {shape.__name__: shape for shape in (fan, spiral, stairs, soup, star, ribbon)}
