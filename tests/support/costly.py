@@ -3,9 +3,9 @@
 import numpy as np
 
 
-def ring(n, radius=1.0, turns=1):
-    angle = 2 * np.pi * turns * np.arange(n) / n
-    return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), np.zeros(n)])
+def ring(n):
+    angle = 2 * np.pi * np.arange(n) / n
+    return np.column_stack([np.cos(angle), np.sin(angle), np.zeros(n)])
 
 
 def fan(n):
@@ -15,15 +15,19 @@ def fan(n):
 
 def spiral(n):
     """Around one vertex twice: it lies over itself when it is flat."""
-    rim = ring(n + 1, turns=2) + [0, 0, 0.02] * np.arange(n + 1)[:, None] / n
+    angle = 4 * np.pi * np.arange(n + 1) / n
+    rim = np.column_stack([np.cos(angle), np.sin(angle), 0.02 * angle])
     return np.vstack([[0, 0, 0], rim]), [[0, 1 + i, 2 + i] for i in range(n)]
 
 
 def stairs(n):
     """Round an axis ten times, in long steps."""
     height = [0, 0, 5.0] * np.arange(n + 1)[:, None] / n
-    points = np.vstack([ring(n + 1, radius, 10) + height for radius in (0.2, 1.0)])
-    return points, [[i, i + 1, n + 2 + i, n + 1 + i] for i in range(n)]
+    angle = 20 * np.pi * np.arange(n + 1) / n
+    circle = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
+    return np.vstack([radius * circle + height for radius in (0.2, 1.0)]), [
+        [i, n + 1 + i, n + 2 + i, i + 1] for i in range(n)
+    ]
 
 
 def soup(n):

@@ -54,9 +54,9 @@ class Cuts:
         no_seam = np.zeros(len(pieces._native.edges), bool)
         return self._of(pieces, paths_to_border(pieces, on_border(pieces, no_seam), starts))
 
-    def across_overlaps(self, pieces, uv):
+    def across_overlaps(self, pieces, uv, progress):
         """(#E,) edges between the parts of pieces that lie over themselves, each of which does not."""
-        return self._of(pieces, edges_between(pieces, _native.parted(pieces._native, uv)))
+        return self._of(pieces, edges_between(pieces, _native.parted(pieces._native, uv, progress)))
 
     def _of(self, pieces, cuts):
         """(#E,) the edges of the surface that are these of its pieces, a mask."""

@@ -105,9 +105,8 @@ class Flattened:
     def laid_out(self, flat_uv: Reals, evenness: float, conformal: Islands | None = None) -> Islands:
         """The `Islands` of the UVs by `evened`. conformal : those for evenness 0, if it is another one"""
         (uv, is_held), joints = _upright(self.pieces, flat_uv), self.cuts.joints()
-        uv, nets = _native.joined(
-            self.pieces._native, uv, _preferred(uv, joints), self.flat.is_flat, is_held & self.is_upright
-        )
+        may = self.flat.is_flat, is_held & self.is_upright  # be joined, and not be turned
+        uv, nets = _native.joined(self.pieces._native, uv, _preferred(uv, joints), *may, self.progress)
         corners = len(self.surface.corner_vertices)
         uv, count = _packed(uv[:corners], nets[corner_pieces(self.pieces)][:corners])
         seams = self.cuts.mask & ~_is_continuous(self.cuts, uv, joints)

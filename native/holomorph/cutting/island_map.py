@@ -196,7 +196,7 @@ class IslandSearch:
     def _parted(self, candidate, uv, most):
         """The `_Candidate`s with further cuts across the overlaps that its pieces have with these UVs, if any."""
         cuts = candidate.flattened.cuts.copy()
-        is_cut = cuts.add(cuts.across_overlaps(candidate.flattened.pieces, uv))
+        is_cut = cuts.add(cuts.across_overlaps(candidate.flattened.pieces, uv, self._progress))
         return self._candidates(cuts, most, candidate.rounds) if is_cut else []
 
     def _flattened(self, cuts, most):

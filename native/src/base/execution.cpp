@@ -1,9 +1,18 @@
 #include "base/execution.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace holomorph {
+
+namespace {
+std::atomic<std::uint64_t> all_work{0};
+}
+
+Execution::~Execution() { all_work += work_; }
+
+std::uint64_t Execution::work() { return all_work; }
 
 void Execution::stage(const std::string& name, double begin, double end) {
   close_stage();

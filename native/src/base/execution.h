@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -13,8 +14,8 @@
 namespace holomorph {
 
 /// One object is handed down through all stages of a computation. It reports how far the work has come, at most every
-/// 20 ms and never backwards, and throws Cancelled when the caller's function answers false. Not thread-safe: only the
-/// thread that began the work calls it, never a worker.
+/// 20 ms and never backwards, and throws Cancelled when the caller's function answers false. It also counts the work in
+/// operations, the same on any machine. Not thread-safe: only the thread that began the work calls it, never a worker.
 class Execution {
  public:
   /// `fraction` in [0, 1] of the whole work, `stage` a short name; the answer false cancels.
@@ -22,6 +23,9 @@ class Execution {
 
   /// @param threads of the loops, the calling one included; 0: one for each processor. No result depends on it.
   explicit Execution(int threads = 0, Callback callback = {}) : callback_(std::move(callback)), workers_(threads) {}
+  ~Execution();
+  Execution(const Execution&) = delete;
+  Execution& operator=(const Execution&) = delete;
 
   Workers& workers() { return workers_; }
   int threads() const { return workers_.count(); }
@@ -41,8 +45,17 @@ class Execution {
       call(begin_ + (end_ - begin_) * (part_begin_ + (part_end_ - part_begin_) * done));
   }
 
-  /// In a loop: reports every 4096th of `count` steps, which together are the part [from, to] of the current stage.
+  /// Adds operations that take about as long at any size, such as tests of two triangles, to `work`.
+  void count(std::size_t operations) { work_ += operations; }
+
+  /// What was counted in this process by all objects that have ended. Two calls before and after a computation tell how
+  /// its cost grows.
+  static std::uint64_t work();
+
+  /// In a loop: counts a step and reports every 4096th of `count` steps, which together are the part [from, to] of the
+  /// current stage.
   void step(std::size_t i, std::size_t count, double from = 0.0, double to = 1.0) {
+    ++work_;
     if (i % 4096 == 0) report(from + (to - from) * static_cast<double>(i) / static_cast<double>(count));
   }
 
@@ -78,6 +91,7 @@ class Execution {
   std::string name_;
   double whole_begin_ = 0, whole_end_ = 1;  // what the stages are of, see Within
   double begin_ = 0, end_ = 0, part_begin_ = 0, part_end_ = 1, reported_ = 0;
+  std::uint64_t work_ = 0;
   Clock::time_point stage_start_{}, last_call_{};
   std::vector<std::pair<std::string, double>> seconds_;
 };

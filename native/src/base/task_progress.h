@@ -16,6 +16,8 @@ class TaskProgress {
   /// @param steps number of calls after which the progress reported is one half: about half of those expected
   TaskProgress(Execution& execution, double steps) : execution_(execution), steps_(steps) {}
 
+  ~TaskProgress() { execution_.count(done_); }
+
   /// @param thread that the task runs on, 0 for the calling one. @throws Cancelled
   void operator()(int thread) {
     const auto done = static_cast<double>(done_.fetch_add(1, std::memory_order_relaxed));
@@ -33,7 +35,7 @@ class TaskProgress {
  private:
   Execution& execution_;
   double steps_;
-  std::atomic<int> done_{0};
+  std::atomic<std::size_t> done_{0};
   std::atomic<bool> is_ended_{false};
   std::exception_ptr end_;  // written before is_ended_
 };

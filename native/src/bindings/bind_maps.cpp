@@ -233,25 +233,29 @@ py::array evened_islands(const mesh::Surface& surface, const Flattening& flatten
 // (#C, 2) UVs and the nets of the components. The facade has made the arguments.
 std::pair<py::array, py::array> joined(const mesh::Surface& surface, const Contiguous<double>& uv,
                                        const Contiguous<int>& joints, const Contiguous<char>& is_joinable,
-                                       const Contiguous<char>& is_held) {
+                                       const Contiguous<char>& is_held, const py::object& progress) {
   uv::UvArray moved = Eigen::Map<const uv::UvArray>(uv.data(), uv.shape(0), 2);
   const auto pairs = rows<int, 4>(joints);
   const auto joinable = values<char>(is_joinable), held = values<char>(is_held);
   std::vector<int> nets;
+  Execution execution(1, callback(progress));
   {
     const py::gil_scoped_release unlocked;
-    nets = islands::joined(surface, moved, pairs, joinable, held);
+    execution.stage("joints", 0.0, 1.0);
+    nets = islands::joined(surface, moved, pairs, joinable, held, execution);
   }
   return {give_matrix(std::move(moved)), give(std::move(nets))};
 }
 
 // (#F,) the part of each polygon
-py::array parted(const mesh::Surface& surface, const Contiguous<double>& uv) {
+py::array parted(const mesh::Surface& surface, const Contiguous<double>& uv, const py::object& progress) {
   const uv::UvArray flat = Eigen::Map<const uv::UvArray>(uv.data(), uv.shape(0), 2);
   std::vector<int> parts;
+  Execution execution(1, callback(progress));
   {
     const py::gil_scoped_release unlocked;
-    parts = islands::parted(surface, flat);
+    execution.stage("overlaps", 0.0, 1.0);
+    parts = islands::parted(surface, flat, execution);
   }
   return give(std::move(parts));
 }
@@ -265,9 +269,9 @@ void bind_islands(py::module_& m) {
   m.def("flattened", &flattened, py::arg("surface"), py::arg("threads"), py::arg("progress"));
   m.def("evened_islands", &evened_islands, py::arg("surface"), py::arg("flattening"), py::arg("evenness"),
         py::arg("threads"), py::arg("progress"));
-  m.def("parted", &parted, py::arg("surface"), py::arg("uv"));
+  m.def("parted", &parted, py::arg("surface"), py::arg("uv"), py::arg("progress"));
   m.def("joined", &joined, py::arg("surface"), py::arg("uv"), py::arg("joints"), py::arg("is_joinable"),
-        py::arg("is_held"));
+        py::arg("is_held"), py::arg("progress"));
 }
 
 void bind_records(py::module_& m) {

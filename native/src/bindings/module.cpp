@@ -43,6 +43,7 @@ void declare_out_of_memory(py::module_& m, const py::object& base) {
 
 PYBIND11_MODULE(_native, m) {
   m.attr("__version__") = HOLOMORPH_VERSION;
+  m.def("work", &holomorph::Execution::work);
   m.attr("direct_solver") = solver::SparseCholesky::name();
   auto& base = declare<Error>(m, "Error", PyExc_RuntimeError, "Base of all errors of this library.");
   declare<InvalidMesh>(m, "InvalidMesh", base, "The input is not a valid polygon mesh, or a file is malformed.");

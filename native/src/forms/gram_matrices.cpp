@@ -129,6 +129,7 @@ std::vector<GramMatrix> gram_matrices(const HalfEdges& half_edges, std::span<con
       [&](int slot) { total += slots[slot]; });
   const VectorXd cut = errors.empty() ? VectorXd() : cut_sizes(weighted);
   const int edges = static_cast<int>(weights.size());
+  for (const int count : families) execution.count(weights.size() * static_cast<std::size_t>(count) * count);
   std::vector<GramMatrix> result;
   for (std::size_t i = 0, first = 0; i < families.size(); first += families[i++]) {
     const auto symmetric = [](const MatrixXd& A) { return MatrixXd((A + A.transpose()) / 2); };

@@ -24,8 +24,8 @@ struct Motion {
 
 class Nets {
  public:
-  Nets(const mesh::Surface& surface, const uv::UvArray& uv, const std::vector<char>& is_held)
-      : surface_(surface), uv_(uv), is_held_(is_held) {
+  Nets(const mesh::Surface& surface, const uv::UvArray& uv, const std::vector<char>& is_held, Execution& execution)
+      : surface_(surface), uv_(uv), is_held_(is_held), execution_(execution) {
     const int count = surface.component_count;
     triangles_.resize(count), islands_.resize(count), motions_.resize(count);
     net_.resize(count);
@@ -97,9 +97,11 @@ class Nets {
       arriving.push_back(t);
     });
     bool found = false;
+    execution_.count(sizes_[one] + sizes_[other]);
     for_triangles(one, [&](const Points& t) {
       const Box box = box_of(t);
       if (found || !box.meets(all)) return;
+      execution_.count(arriving.size());
       found = std::any_of(arriving.begin(), arriving.end(),
                           [&](const Points& other_t) { return box.meets(box_of(other_t)) && overlap(t, other_t); });
     });
@@ -120,6 +122,7 @@ class Nets {
   const mesh::Surface& surface_;
   const uv::UvArray& uv_;
   const std::vector<char>& is_held_;
+  Execution& execution_;
   std::vector<int> corner_islands_;
   std::vector<std::vector<int>> triangles_, islands_;  // in each island; in each net
   std::vector<Motion> motions_;                        // each island's
@@ -140,10 +143,12 @@ std::vector<int> lowest_of_nets(const Nets& nets, int count) {
 }  // namespace
 
 std::vector<int> joined(const mesh::Surface& surface, uv::UvArray& uv, const std::vector<Joint>& joints,
-                        const std::vector<char>& is_joinable, const std::vector<char>& is_held) {
+                        const std::vector<char>& is_joinable, const std::vector<char>& is_held, Execution& execution) {
   const uv::UvArray flat = uv;
-  Nets nets(surface, flat, is_held);
-  for (const Joint& joint : joints) {
+  Nets nets(surface, flat, is_held, execution);
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const Joint& joint = joints[k];
+    execution.report(static_cast<double>(k) / static_cast<double>(joints.size()));
     if (is_joinable[nets.island_at(joint[0])] && is_joinable[nets.island_at(joint[2])]) nets.join(joint);
   }
   for (int c = 0; c < static_cast<int>(flat.rows()); ++c) uv.row(c) << nets.at(c).real(), nets.at(c).imag();

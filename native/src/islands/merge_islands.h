@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/execution.h"
 #include "mesh/surface.h"
 #include "uv/uv_map.h"
 
@@ -19,9 +20,9 @@ using Joint = std::array<int, 4>;
 /// @param surface cut open along its seams. @param uv #C x 2, changed. @param joints in the order in which they are
 /// tried
 /// @param is_joinable each component: whether it may be moved. @param is_held each one: whether it keeps its direction
-/// @return each component: the lowest one of its net
+/// @return each component: the lowest one of its net. @throws Cancelled
 /// Cost: at most kMostTriangles tests of two triangles for each triangle of the surface.
 std::vector<int> joined(const mesh::Surface& surface, uv::UvArray& uv, const std::vector<Joint>& joints,
-                        const std::vector<char>& is_joinable, const std::vector<char>& is_held);
+                        const std::vector<char>& is_joinable, const std::vector<char>& is_held, Execution& execution);
 
 }  // namespace holomorph::islands

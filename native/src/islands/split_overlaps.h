@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/execution.h"
 #include "mesh/surface.h"
 #include "uv/uv_map.h"
 
@@ -33,7 +34,7 @@ bool overlap(const Points& a, const Points& b);
 /// that does not overlap itself has one number. A part grows from a polygon by neighbours that overlap none of the
 /// polygons before; the rest of the component begins anew.
 /// @param surface its components are the islands. @param uv #C x 2
-/// Cost: O(#T) for each number of a component.
-std::vector<int> parted(const mesh::Surface& surface, const uv::UvArray& uv);
+/// Cost: O(#T) for each number of a component. @throws Cancelled
+std::vector<int> parted(const mesh::Surface& surface, const uv::UvArray& uv, Execution& execution);
 
 }  // namespace holomorph::islands

@@ -79,10 +79,11 @@ class Flipper {
   std::vector<int> stack;    // edges to check, queued
   std::vector<int> between;  // edges to check when the regions are done
   std::vector<Flip> flips;
+  std::size_t steps = 0;  // edges that were checked
 
   template <class Report>
   void run(const Report& report) {
-    for (std::size_t steps = 0; !stack.empty(); ++steps) {
+    for (; !stack.empty(); ++steps) {
       if (steps % 4096 == 0) report(stack.size());
       const int e = stack.back();
       stack.pop_back();
@@ -218,6 +219,7 @@ void flip_all(IntrinsicTriangulation& t, Execution& execution) {
   const double total = std::max(1.0, static_cast<double>(rest.stack.size()));
   rest.run([&](std::size_t left) { execution.report(std::max(0.7, 1.0 - 0.3 * static_cast<double>(left) / total)); });
   regions.push_back(std::move(rest));
+  for (const Flipper& region : regions) execution.count(region.steps);
   append_flips(regions, t.flips);
 }
 

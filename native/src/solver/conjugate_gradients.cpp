@@ -121,6 +121,7 @@ class Gradients {
       sum += r_[i] * p_[i];
     });
     for (; !(norm <= goal).all() && iterations < options_.most_iterations; ++iterations) {
+      execution_.count(static_cast<std::size_t>(n_) * K);
       execution_.report(part_of_digits(largest_relative(norm, norm_b), options_.residual));
       const Values<K> pq = sum_over_rows(workers_, n_, zero(), [&](int i, Values<K>& sum) {
         q_[i] = product(p_, i);

@@ -140,6 +140,7 @@ class MultigridSolver final : public LaplaceSolver {
         const double columns = static_cast<double>(first) + part_of_digits(reached, kResidual) * width;
         execution.report(kSetUp + (1 - kSetUp) * columns / static_cast<double>(B.cols()));
       });
+      execution.count(static_cast<std::size_t>(block.iterations()) * X.rows() * width);
       iterations = std::max(iterations, block.iterations());
       residual = std::max(residual, block.residual());
     });
