@@ -3,19 +3,14 @@
 
 #include <deque>
 #include <functional>
-#include <vector>
 
 #include "base/workers.h"
 #include "evening/strain_energy.h"
 
 namespace holomorph::evening {
 
-/// The energy of a part of the surface. Its map is the one with delta, so that its own function starts at 0.
-struct StrainEnergy::Patch {
-  StrainEnergy energy;
-  std::vector<int> vertices;  ///< vertices of the surface: the free ones first
-  int free_count = 0;         ///< how many of them are free to move
-};
+/// The second derivatives of the energy are about twice the Laplacian of StrainEnergy.
+inline constexpr double kInverse = 0.5;
 
 /// Applies an approximate inverse of the second derivatives, symmetric and positive.
 using Precondition = std::function<Function(const Function& gradient)>;

@@ -7,6 +7,7 @@
 
 #include "base/chunks.h"
 #include "evening/descent.h"
+#include "evening/patch.h"
 #include "forms/laplacian.h"
 #include "mesh/half_edges.h"
 #include "solver/direct/sparse_cholesky.h"
@@ -27,7 +28,6 @@ constexpr double kHelps = 0.9;
 // enough, since few triangles decide; where more than this part of the area is flipped, at most half is tried next.
 constexpr double kFactors[] = {1, 0.93, 0.86, 0.75, 0.5, 0.25, 0.125, 0.0625};
 constexpr double kMuch = 1e-4;
-constexpr int kPatchSteps = 60, kUrges = 6;  // at most: steps before they count more, and how often these do
 // Where this part of the area is flipped beyond what was, the whole map is wrong, and half the weight is tried.
 constexpr double kTooMuch = 0.05;
 // All surroundings together may take as much work as this number of steps on the whole surface. A small mesh counts as
@@ -38,9 +38,6 @@ constexpr int kFewVertices = 5000;
 // The weight of size in the energy. Where strain is small and size counts by its square, minimising takes the power
 // 1 - lambda of every density, and s1 / s2 grows by lambda times the logarithm of the density over its mean.
 double lambda_of(double evenness) { return evenness * (0.78 - 0.08 * evenness); }
-
-// The second derivatives are about twice the Laplacian.
-constexpr double kInverse = 0.5;
 
 solver::Condition condition(const std::vector<int>& kept) {
   return kept.empty() ? solver::Condition::natural : solver::Condition::dirichlet;
@@ -126,77 +123,6 @@ void clear(Function& function, const Kept& kept) {
   for (const int v : kept.v) function[v].imag(0);
 }
 
-// The inverse of a Laplacian on the free vertices of a patch.
-Precondition inverse(solver::SparseCholesky& factor, int free_count, bool turns) {
-  return [&factor, free_count, turns](const Function& gradient) {
-    Function result(gradient.size(), 0.0);
-    if (turns) {
-      Eigen::MatrixXd b(2 * free_count, 1);
-      for (int v = 0; v < free_count; ++v) b(2 * v, 0) = gradient[v].real(), b(2 * v + 1, 0) = gradient[v].imag();
-      const Eigen::MatrixXd x = factor.solve(b);
-      for (int v = 0; v < free_count; ++v) result[v] = kInverse * Complex(x(2 * v, 0), x(2 * v + 1, 0));
-      return result;
-    }
-    Eigen::MatrixXd B(free_count, 2);
-    for (int v = 0; v < free_count; ++v) B.row(v) << gradient[v].real(), gradient[v].imag();
-    const Eigen::MatrixXd X = factor.solve(B);
-    for (int v = 0; v < free_count; ++v) result[v] = kInverse * Complex(X(v, 0), X(v, 1));
-    return result;
-  };
-}
-
-// Turns triangles back that delta flips, until no more area is flipped than `most_flipped`. Only their surroundings
-// move.
-// @param delta on the whole surface; changed where that flips less
-// @param vertex_steps steps left, each times the vertices of its patch
-// @return the area that delta then flips
-double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, double most_flipped,
-                 StrainEnergy::Rings rings, Function& delta, double& vertex_steps, Execution& execution) {
-  StrainEnergy::Patch patch = energy.around_flipped(delta, rings);
-  std::vector<int> number(delta.size(), -1);
-  for (std::size_t i = 0; i < patch.vertices.size(); ++i) number[patch.vertices[i]] = static_cast<int>(i);
-  // The vertices of the patch beyond the free ones are its rim, which joins it to the rest and stays.
-  const auto kept_here = [&](const std::vector<int>& vertices) {
-    std::vector<int> here;
-    for (std::size_t i = patch.free_count; i < patch.vertices.size(); ++i) here.push_back(static_cast<int>(i));
-    for (const int v : vertices) {
-      if (number[v] >= 0) here.push_back(number[v]);
-    }
-    return here;
-  };
-  std::vector<int> u = kept.u, v = kept.v;  // and what moves with vertices that may lie outside
-  const std::vector<char> shared = kept.unknowns.shared();
-  for (std::size_t p = 0; p < shared.size(); ++p) {
-    if (shared[p]) (p % 2 == 0 ? u : v).push_back(static_cast<int>(p / 2));
-  }
-  const Kept here{{}, kept_here(u), kept_here(v), {}, {}};
-  solver::SparseCholesky factor;
-  const auto make = [&](const Function& at) -> Precondition {
-    const Eigen::SparseMatrix<double> lower = patch.energy.laplacian(at, lambda, patch.free_count);
-    factor.compute(lower, {});
-    return inverse(factor, patch.free_count, lower.rows() > patch.free_count);
-  };
-  Descent descent(
-      patch.energy, lambda, make, [&](Function& f) { clear(f, here); }, execution.workers());
-  Function best(patch.vertices.size(), 0.0);
-  double least_flipped = descent.begin(best).flipped;
-  // Descends. Where triangles are still flipped at the end, these count more, and the descent goes on from there. The
-  // best function on the way is kept, since a descent of the energy may flip more in between.
-  for (int urge = 0; urge < kUrges && descent.value().flipped > most_flipped && vertex_steps > 0; ++urge) {
-    for (int step = 0; step < kPatchSteps && vertex_steps > 0 && descent.step(); ++step) {
-      execution.report(0);
-      vertex_steps -= static_cast<double>(patch.vertices.size());
-      if (descent.value().flipped >= least_flipped) continue;
-      least_flipped = descent.value().flipped;
-      best = descent.delta();
-    }
-    patch.energy.emphasise_flipped(descent.delta(), execution.workers());
-    descent.begin(Function(descent.delta()));
-  }
-  for (int i = 0; i < patch.free_count; ++i) delta[patch.vertices[i]] += best[i];
-  return least_flipped;
-}
-
 struct Found {
   Function delta;
   double flipped_more;  // than in the map before, a part of the area
@@ -228,15 +154,15 @@ Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept
   }
   execution.part(kWhole, 1);
   Function delta = descent.delta();
-  double flipped = descent.value().flipped;
+  double beyond = descent.value().flipped - most_flipped;
   // Ever larger surroundings, each from what the last one has reached.
   for (const StrainEnergy::Rings rings : kRings) {
-    if (flipped <= most_flipped || flipped > most_flipped + kTooMuch || !(vertex_steps > 0)) break;
-    const double before = flipped;
-    flipped = turn_back(energy, kept, lambda, most_flipped, rings, delta, vertex_steps, execution);
-    if (flipped > kHelps * before) break;
+    if (beyond <= 0 || beyond > kTooMuch || !(vertex_steps > 0)) break;
+    const double before = beyond;
+    beyond = turn_back(energy, kept, lambda, rings, delta, vertex_steps, execution);
+    if (beyond > kHelps * before) break;
   }
-  return {std::move(delta), flipped - flipped_before};
+  return {std::move(delta), beyond - (flipped_before - most_flipped)};
 }
 
 }  // namespace

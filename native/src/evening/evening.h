@@ -11,14 +11,6 @@
 
 namespace holomorph::evening {
 
-/// What evening does not change, besides the jumps of the map.
-struct Kept {
-  std::vector<int> poles;  ///< vertices at which the map is infinite
-  std::vector<int> u, v;   ///< ascending vertices at which u, or v, keeps its value, as on a straight boundary
-  CornerTurns turns;       ///< by which the function turns at corners, as the jumps of the map do
-  Unknowns unknowns;       ///< of a function that turns; parts that are none are in u or v as well
-};
-
 /// The evenness that suits textures: squares hardly differ in size, and their shear is not seen.
 inline constexpr double kUsualEvenness = 0.5;
 

@@ -12,14 +12,15 @@ namespace {
 
 // Bounds of the stiffness by area, relative to where the map has its mean size. At a branch point |a| vanishes, and the
 // stiffness would be infinite.
-constexpr double kMostStiff = 1e4, kLeastStiff = 1e-6;
+constexpr double kMostStiff = 1e6, kLeastStiff = 1e-6;
 
 // Factor of the energy of a triangle each time that it is still flipped.
 constexpr double kEmphasis = 8;
 
-// Triangles thinner than this, area by squared longest side, weigh less in the Laplacian: solvers do not like their
-// weights, and the energy itself has them right.
-constexpr double kThinArea = 1e-2;
+// Triangles thinner than this, area by squared longest side, weigh less in the Laplacian: solvers do not bear their
+// weights, and the energy itself has them right. Other slivers count in full. If they did not, steps would be too long
+// there, and a few slivers would shorten those of all.
+constexpr double kThinArea = 1e-6;
 
 struct LogSum {
   double area = 0, log = 0;

@@ -59,15 +59,15 @@ class StrainEnergy {
   /// corner to corner it is that of their real and imaginary parts, in turn, twice as large.
   Eigen::SparseMatrix<double> laplacian(const Function& delta, double lambda, int count) const;
 
-  struct Patch;  // patch.h
+  struct Patch;  // evening/patch.h
   /// Rings of triangles around the flipped ones.
   struct Rings {
     int all, inner;
   };
-  /// Returns the patch of the triangles that delta flips and `rings.all` rings around them. The `rings.inner` inner
-  /// rings keep the shape that the map without delta gives them, and so flip no more than it does; 0 for none. @pre
-  /// delta flips some
-  Patch around_flipped(const Function& delta, Rings rings) const;
+  /// Returns the connected patches of the triangles that delta flips and `rings.all` rings around them. The
+  /// `rings.inner` inner rings keep the shape that the map without delta gives them, and so flip no more than it does;
+  /// 0 for none.
+  std::vector<Patch> around_flipped(const Function& delta, Rings rings) const;
 
  private:
   struct Derivatives {

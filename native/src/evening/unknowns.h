@@ -1,4 +1,4 @@
-// Functions on vertices that turn from corner to corner, some of whose parts are one unknown.
+// What evening keeps, and functions on vertices that turn from corner to corner, some of whose parts are one unknown.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -27,6 +27,14 @@ struct Unknowns {
   Eigen::VectorXd gathered(const Function& function) const;
   /// Whether other parts are the same unknown. @return 2 #V
   std::vector<char> shared() const;
+};
+
+/// What evening does not change, besides the jumps of the map.
+struct Kept {
+  std::vector<int> poles;  ///< vertices at which the map is infinite
+  std::vector<int> u, v;   ///< ascending vertices at which u, or v, keeps its value, as on a straight boundary
+  CornerTurns turns;       ///< by which the function turns at corners, as the jumps of the map do
+  Unknowns unknowns;       ///< of a function that turns; parts that are none are in u or v as well
 };
 
 }  // namespace holomorph::evening
