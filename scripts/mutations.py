@@ -281,6 +281,7 @@ MUTATIONS = (
         ROOM + "evening/unknowns.cpp",
         ("unknowns-turn", "2 * b + 1, weight * turn.imag()", "2 * b + 1, -weight * turn.imag()", TURNED),
     )
+    | of(ROOM + "evening/turned_solver.cpp", ("cover-signs", "part == 0 ? -im : im", "im", "native:TurnedSolver*"))
     | of(PACKAGE + "maps/tiling_search.py", ("lines-asked", "lines in EDGED and len", "lines in () and len", ASKED))
     | of(
         PACKAGE + "maps/piece_search.py",

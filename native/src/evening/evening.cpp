@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/chunks.h"
 #include "evening/descent.h"
 #include "evening/patch.h"
+#include "evening/turned_solver.h"
 #include "forms/laplacian.h"
 #include "mesh/half_edges.h"
-#include "solver/direct/sparse_cholesky.h"
 #include "solver/solver_choice.h"
 
 namespace holomorph::evening {
@@ -84,40 +85,6 @@ class Solvers {
   std::shared_ptr<solver::LaplaceSolver> u_, v_;
 };
 
-// The solver for functions that turn from corner to corner: u and v are unknowns of one system.
-class TurnedSolver {
- public:
-  TurnedSolver(const mesh::Surface& surface, const Kept& kept) : surface_(surface), kept_(kept) {}
-
-  void make(const Array<double>& edge_weights) {
-    std::vector<Eigen::Triplet<double>> entries;
-    std::vector<char> done(edge_weights.size(), 0);
-    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-      for (int i = 0; i < 3; ++i) {
-        const int edge = surface_.triangle_edges[t][i];
-        if (done[edge]) continue;
-        done[edge] = 1;
-        const int j = (i + 1) % 3;
-        kept_.unknowns.add_difference(surface_.triangles[t][i], surface_.triangles[t][j], edge_weights[edge],
-                                      std::conj(kept_.turns[t][i]) * kept_.turns[t][j], entries);
-      }
-    }
-    Eigen::SparseMatrix<double> lower(kept_.unknowns.count, kept_.unknowns.count);
-    lower.setFromTriplets(entries.begin(), entries.end());
-    factor_.compute(lower, {});
-  }
-
-  Function precondition(const Function& gradient) {
-    const Eigen::MatrixXd x = factor_.solve(Eigen::MatrixXd(kept_.unknowns.gathered(gradient)));
-    return kept_.unknowns.spread(kInverse * x.col(0));
-  }
-
- private:
-  const mesh::Surface& surface_;
-  const Kept& kept_;
-  solver::SparseCholesky factor_;
-};
-
 void clear(Function& function, const Kept& kept) {
   for (const int v : kept.u) function[v].real(0);
   for (const int v : kept.v) function[v].imag(0);
@@ -133,11 +100,12 @@ Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept
   const mesh::HalfEdges half_edges = mesh::half_edges(surface, execution);
   const auto method = solver::choose_method(solver_name, surface.vertex_count, 2).method;
   Solvers solvers(half_edges, method, kept);
-  TurnedSolver turned(surface, kept);
+  std::optional<TurnedSolver> turned;
+  if (!kept.turns.empty()) turned.emplace(surface, kept, solver_name);
   const auto make = [&](const Function& delta) -> Precondition {
-    if (!kept.turns.empty()) {
-      turned.make(energy.edge_weights(surface, delta, lambda));
-      return [&](const Function& gradient) { return turned.precondition(gradient); };
+    if (turned) {
+      turned->make(energy.edge_weights(surface, delta, lambda), execution);
+      return [&](const Function& gradient) { return turned->precondition(gradient, execution); };
     }
     solvers.make(energy.edge_weights(surface, delta, lambda), execution);
     return [&](const Function& gradient) { return solvers.precondition(gradient, execution); };

@@ -62,6 +62,16 @@ def test_jumps_are_symmetries_of_the_texture(surface, turns):
     assert turns == 6 or np.array_equal(single, made.uv)
 
 
+def test_many_triangles_are_evened_alike_on_any_number_of_threads():
+    """So many that multigrid is chosen, which smaller meshes never see."""
+    ball = surface_of(families.geodesic_sphere(28))
+    one, three = (automatic_structure(ball, threads=n).tile(300.0, turns=4, evenness=0.5) for n in (1, 3))
+    assert np.array_equal(one.uv, three.uv) and not one.quality.flipped.any()
+    assert jump_errors(ball, one).max() == 0
+    small = tiling(surface_of(families.geodesic_sphere(14)), 4)
+    assert one.quality.size_range < 1.05 * small.quality.size_range
+
+
 @pytest.mark.parametrize("turns", [2, 4, 6])
 def test_what_is_missing_around_cones_is_the_euler_number(surface, turns):
     made = tiling(surface, turns)
