@@ -17,6 +17,7 @@ EYE = CORE + "uv/test_appearance.py"
 PARTS = CORE + "automatic_map/test_parts.py"
 SIZING = CORE + "automatic_map/test_sizing.py"
 EVENED = CORE + "evening/test_evened_forms.py"
+THIN = CORE + "evening/test_evened_maps.py"
 VERDICT = CORE + "uv/test_verdict.py"
 PAPER = CORE + "multiresolution/test_paper_solver.py"
 MEMORY = CORE + "structure/test_memory_limit.py::test_the_estimate_and_the_peak"
@@ -281,6 +282,7 @@ MUTATIONS = (
         ROOM + "evening/unknowns.cpp",
         ("unknowns-turn", "2 * b + 1, weight * turn.imag()", "2 * b + 1, -weight * turn.imag()", TURNED),
     )
+    | of(ROOM + "evening/strain_energy.cpp", ("thin-triangles", "kThinArea = 1e-6", "kThinArea = 1e-2", THIN))
     | of(ROOM + "evening/turned_solver.cpp", ("cover-signs", "part == 0 ? -im : im", "im", "native:TurnedSolver*"))
     | of(PACKAGE + "maps/tiling_search.py", ("lines-asked", "lines in EDGED and len", "lines in () and len", ASKED))
     | of(

@@ -112,6 +112,18 @@ def test_no_more_area_is_flipped_where_triangles_are_thin(jitter, seed):
     assert max(parts) == parts[0]
 
 
+def test_few_thin_triangles_do_not_shorten_the_steps_of_all():
+    """As many operations as on a mesh without."""
+
+    def operations(jitter):
+        native, uv = of_structure(families.torus(140, 72, shape="triangles", jitter=jitter))
+        before = _native.work()
+        evened(native, uv, 0.5)
+        return _native.work() - before
+
+    assert operations(0.6) < 1.3 * operations(0.3)
+
+
 @pytest.mark.parametrize("evenness", [0.1, 0.5, 1])
 def test_an_even_map_stays(evenness):
     native = flat_disk()._native
