@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "turns/cone_places.h"
 #include "turns/scale_form.h"
 
 namespace holomorph::turns {
@@ -17,11 +18,10 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Point = std::array<double, 3>;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr int kCandidates = 250, kExtrema = 80;  // that cones may be at, and of these the most where u is extreme
+constexpr int kCandidates = 250;  // that cones may be at
 constexpr int kMostMoves = 400;
 constexpr double kHandles = 0.3;           // weight of the square of what handles turn beyond whole k-th turns
 constexpr double kNear = 0.06;             // roots of the area: opposite cones of a field that are nearer vanish
@@ -40,12 +40,6 @@ constexpr Round kFromLevel[] = {{0.6, 0.5}, {0.3, 1}, {0.15, 1}};
 constexpr double kLevels[] = {0.1, 1, 10};   // weights with which fields are pulled level
 constexpr unsigned kSeeds[] = {1, 2, 3, 4};  // of the starts from curvature
 
-double squared_distance(const Point& a, const Point& b) {
-  double sum = 0;
-  for (int i = 0; i < 3; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return sum;
-}
-
 // The price of a cone, over that of one k-th turn.
 double price_of(int n) {
   const int size = std::abs(n);
@@ -57,17 +51,14 @@ class Search {
   Search(const mesh::Surface& surface, const Net& net, const ConeOptions& options, Execution& execution,
          std::vector<int> patch = {})
       : execution_(execution),
-        points_(surface.polygons.vertices),
         net_(net),
         options_(options),
-        patch_(std::move(patch)),
+        on_(surface, net, std::move(patch)),
         form_(net, options.k) {
-    has_patches_ = !patch_.empty();
-    if (!has_patches_) patch_.assign(net.vertex_count(), 0);
     most_ = options.k == 1 ? 0 : options.k == 2 ? 1 : 2;
     least_ = -options.k;
     spacing_ = std::sqrt(net.whole_area / kCandidates);
-    find_spread();
+    spread_ = on_.spread(form_.without_cones(), kCandidates);
   }
 
   void report(double part) {
@@ -102,58 +93,19 @@ class Search {
     return refined(rounds);
   }
 
-  bool is_hole(int v) const { return net_.hole[v] == v; }
-  // Cones lie inside a patch, and holes at their places.
-  bool is_place(int v) const { return net_.first[v] >= 0 && place_of(net_, v) == v && patch_[v] >= 0; }
-
-  // Farthest points, and the vertices where u without cones is extreme: the tips.
-  void find_spread() {
-    const VectorXd& u0 = form_.without_cones();
-    std::vector<int> extreme;
-    std::vector<double> highest(net_.vertex_count(), -kInfinite), lowest(net_.vertex_count(), kInfinite);
-    for (int side = 0; side < net_.side_count(); ++side) {
-      const double value = u0[net_.head[side]];
-      highest[net_.tail[side]] = std::max(highest[net_.tail[side]], value);
-      lowest[net_.tail[side]] = std::min(lowest[net_.tail[side]], value);
-    }
-    for (int v = 0; v < net_.vertex_count(); ++v) {
-      if (is_place(v) && (u0[v] >= highest[v] || u0[v] <= lowest[v])) extreme.push_back(v);
-    }
-    std::stable_sort(extreme.begin(), extreme.end(), [&](int a, int b) { return std::abs(u0[a]) > std::abs(u0[b]); });
-    if (extreme.size() > kExtrema) extreme.resize(kExtrema);
-    spread_ = std::move(extreme);
-    for (int v = 0; v < net_.vertex_count(); ++v) {
-      if (is_hole(v)) spread_.push_back(v);
-    }
-    std::vector<double> distance(net_.vertex_count(), kInfinite);
-    int farthest = -1;
-    for (int v = 0; v < net_.vertex_count() && farthest < 0; ++v) {
-      if (is_place(v)) farthest = v;
-    }
-    for (int n = 0; n < kCandidates - kExtrema && farthest >= 0; ++n) {
-      spread_.push_back(farthest);
-      const Point& last = points_[farthest];
-      farthest = -1;
-      for (int v = 0; v < net_.vertex_count(); ++v) {
-        distance[v] = std::min(distance[v], squared_distance(points_[v], last));
-        if (is_place(v) && distance[v] > 0 && (farthest < 0 || distance[v] > distance[farthest])) farthest = v;
-      }
-    }
-  }
-
   // Pairs of opposite cones that are near, nearest first, vanish or become one.
   void annihilate(std::vector<int>& missing) const {
     const double near = kNear * kNear * net_.whole_area;
     for (;;) {
       std::vector<int> cones;
       for (int v = 0; v < net_.vertex_count(); ++v) {
-        if (missing[v] != 0 && is_place(v) && !is_hole(v)) cones.push_back(v);
+        if (missing[v] != 0 && on_.is_place(v) && !on_.is_hole(v)) cones.push_back(v);
       }
       std::tuple<double, int, int> best{near, -1, -1};
       for (const int a : cones) {
         for (const int b : cones) {
-          if (missing[a] > 0 && missing[b] < 0 && patch_[a] == patch_[b])
-            best = std::min(best, {squared_distance(points_[a], points_[b]), a, b});
+          if (missing[a] > 0 && missing[b] < 0 && on_.patch(a) == on_.patch(b))
+            best = std::min(best, {on_.squared_distance(a, b), a, b});
         }
       }
       const auto [distance, a, b] = best;
@@ -171,17 +123,17 @@ class Search {
     std::map<int, int> left;  // what is to be placed in each patch
     if (!missing) left[0] = form_.total();
     for (int v = 0; missing && v < net_.vertex_count(); ++v) {
-      if ((*missing)[v] != 0 && patch_[v] >= 0) left[patch_[v]] += (*missing)[v];
+      if ((*missing)[v] != 0 && on_.patch(v) >= 0) left[on_.patch(v)] += (*missing)[v];
     }
     for (std::size_t i = 0; missing && i < places_.size(); ++i) {
       const int n = (*missing)[places_[i]];
       if (n == 0) continue;
       const auto near = std::ranges::find_if(near_[i], [&](std::size_t j) { return n_[j] != 0 && are_together(i, j); });
       int& united = near == near_[i].end() ? n_[i] : n_[*near];
-      united = is_hole(places_[i]) || !moves(i) ? n : std::clamp(united + n, least_, most_);
+      united = on_.is_hole(places_[i]) || !moves(i) ? n : std::clamp(united + n, least_, most_);
     }
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      if (n_[i] != 0 && moves(i)) left[patch_[places_[i]]] -= n_[i];
+      if (n_[i] != 0 && moves(i)) left[on_.patch(places_[i])] -= n_[i];
     }
     for (auto& [patch, sum] : left) {
       for (; sum != 0; sum -= sum > 0 ? 1 : -1) add_to(patch, sum > 0 ? 1 : -1);
@@ -197,7 +149,7 @@ class Search {
     for (const bool apart : {true, false}) {
       if (best >= 0) break;
       for (std::size_t i = 0; i < n_.size(); ++i) {
-        if (patch_[places_[i]] != patch || !may_be(i, unit) || (apart && crowd(i) > 0 && n_[i] == 0)) continue;
+        if (on_.patch(places_[i]) != patch || !may_be(i, unit) || (apart && crowd(i) > 0 && n_[i] == 0)) continue;
         if (best < 0 || change[static_cast<Eigen::Index>(i)] < change[best]) best = static_cast<int>(i);
       }
     }
@@ -205,14 +157,14 @@ class Search {
     n_[best] += unit;
   }
 
-  bool moves(std::size_t i) const { return patch_[places_[i]] >= 0; }
+  bool moves(std::size_t i) const { return on_.patch(places_[i]) >= 0; }
   bool are_together(std::size_t i, std::size_t j) const {
-    return !has_patches_ || (moves(i) && patch_[places_[i]] == patch_[places_[j]]);
+    return !on_.have_patches() || (moves(i) && on_.patch(places_[i]) == on_.patch(places_[j]));
   }
 
   bool may_be(std::size_t i, int change) const {
     if (!moves(i)) return false;
-    return is_hole(places_[i]) || (change > 0 ? n_[i] + change <= most_ : n_[i] + change >= least_);
+    return on_.is_hole(places_[i]) || (change > 0 ? n_[i] + change <= most_ : n_[i] + change >= least_);
   }
 
   // The number of cones near a candidate.
@@ -222,31 +174,20 @@ class Search {
 
   bool are_near(std::size_t i, std::size_t j) const { return std::ranges::binary_search(near_[i], j); }
 
-  void find_near() {
-    near_.assign(places_.size(), {});
-    // Centres of k-th turns in a lattice whose tiles have the area 1.
-    const double between = options_.k == 2 ? 0.5 : options_.k == 4 ? std::sqrt(0.5) : 1.075;
-    const double apart = std::pow(kApart * between, 2) * net_.whole_area / options_.tiles;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      for (std::size_t j = 0; j < places_.size(); ++j) {
-        if (i != j && !is_hole(places_[i]) && !is_hole(places_[j]) &&
-            squared_distance(points_[places_[i]], points_[places_[j]]) < apart)
-          near_[i].push_back(j);
-      }
-    }
-  }
-
   void set(std::vector<int> candidates) {
     std::sort(candidates.begin(), candidates.end());
     candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
     places_ = std::move(candidates);
-    find_near();
+    // Centres of k-th turns in a lattice whose tiles have the area 1.
+    const double between = options_.k == 2 ? 0.5 : options_.k == 4 ? std::sqrt(0.5) : 1.075;
+    near_ = on_.near(places_, std::pow(kApart * between, 2) * net_.whole_area / options_.tiles);
     form_.take(places_, [&] { execution_.report(part_); });
   }
 
   // Unit moves n_i + 1, n_j - 1, and jumps of a whole cone, the best of all while it lowers the cost.
   void search(double price_part, double handles_part) {
-    const double kappa = has_patches_ ? 0 : kHandles * handles_part;  // the field of the patches says how handles turn
+    const double kappa =
+        on_.have_patches() ? 0 : kHandles * handles_part;  // the field of the patches says how handles turn
     const double price = options_.price * price_part;
     const auto count = static_cast<Eigen::Index>(places_.size());
     const MatrixXd &flux = form_.flux(), Q = form_.Q() + kappa * flux.transpose() * flux;
@@ -266,7 +207,7 @@ class Search {
       }
       r = Q * n - b;
       for (Eigen::Index i = 0; i < count; ++i) {
-        const double p = is_hole(places_[i]) ? 0 : price;
+        const double p = on_.is_hole(places_[i]) ? 0 : price;
         const auto change = [&](int by) {
           if (!may_be(i, by) || (n_[i] == 0 && crowds[i] > 0)) return kInfinite;
           return 2 * by * r[i] + diagonal[i] + p * (price_of(n_[i] + by) - price_of(n_[i]));
@@ -288,9 +229,9 @@ class Search {
       }
       for (Eigen::Index j = 0; j < count; ++j) {
         const int w = n_[j];
-        if (w == 0 || is_hole(places_[j])) continue;
+        if (w == 0 || on_.is_hole(places_[j])) continue;
         for (Eigen::Index i = 0; i < count; ++i) {
-          if (n_[i] != 0 || is_hole(places_[i]) || crowds[i] > (are_near(i, j) ? 1 : 0)) continue;
+          if (n_[i] != 0 || on_.is_hole(places_[i]) || crowds[i] > (are_near(i, j) ? 1 : 0)) continue;
           if (!are_together(i, j)) continue;
           const double change = 2 * w * (r[i] - r[j]) + w * w * (diagonal[i] + diagonal[j] - 2 * Q(i, j));
           if (change < best) best = change, to = i, from = j, carried = w;
@@ -310,13 +251,10 @@ class Search {
       std::vector<int> candidates, others = places_;
       const double reach = round.reach * spacing_ * round.reach * spacing_;
       for (std::size_t i = 0; i < places_.size(); ++i) {
-        if (n_[i] == 0 && !is_hole(places_[i])) continue;
+        if (n_[i] == 0 && !on_.is_hole(places_[i])) continue;
         candidates.push_back(places_[i]);
-        if (is_hole(places_[i])) continue;
-        std::vector<int> near;
-        for (int v = 0; v < net_.vertex_count(); ++v) {
-          if (is_place(v) && squared_distance(points_[v], points_[places_[i]]) < reach) near.push_back(v);
-        }
+        if (on_.is_hole(places_[i])) continue;
+        std::vector<int> near = on_.within(places_[i], reach);
         draw(near, around, candidates);
       }
       draw(others, kOthers, candidates);
@@ -331,7 +269,7 @@ class Search {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       result.missing[places_[i]] = n_[i];
       n[static_cast<Eigen::Index>(i)] = n_[i];
-      if (!is_hole(places_[i])) result.cost += options_.price * price_of(n_[i]);
+      if (!on_.is_hole(places_[i])) result.cost += options_.price * price_of(n_[i]);
     }
     result.cost += form_.constant() + n.dot(form_.Q() * n - 2 * form_.b());
     return result;
@@ -347,11 +285,9 @@ class Search {
 
   Execution& execution_;
   double part_ = 0;  // of the work that is done
-  const std::vector<Point>& points_;
   const Net& net_;
   const ConeOptions options_;
-  std::vector<int> patch_;  // #V: cones stay within theirs, and where it is below 0
-  bool has_patches_ = false;
+  const ConePlaces on_;
   ScaleForm form_;
   std::vector<int> spread_, places_, n_;
   std::vector<std::vector<std::size_t>> near_;  // to each candidate, ascending
