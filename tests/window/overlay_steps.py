@@ -107,13 +107,16 @@ def changes():
 
 
 def poles():
-    """A report as the tile operator leaves it: a pole at the top, one behind the torus, a branch point beside."""
+    """As if the tiling had a pole at the top of the torus, one behind it, and a branch point beside."""
     obj = bpy.data.objects["Torus"]
     points = addon("scene.mesh_io").world_points(obj)
     corners = {"pole": (0, 1, 0.4), "behind": (0, -1, -0.4), "branch point": (1, 0, 0.4)}
     marked = {name: int(np.argmin(np.linalg.norm(points - place, axis=1))) for name, place in corners.items()}
-    tiling = {"poles": [marked["pole"], marked["behind"]], "zeros": [marked["branch point"]]}
-    obj[addon("results.report").PROPERTY] = json.dumps({"components": [{"tiling": tiling}]})
+    stored = addon("results.report").PROPERTY
+    report = json.loads(obj[stored])
+    tiling = {"poles": [marked["pole"], marked["behind"]], "zeros": [marked["branch point"]], "cones": []}
+    report["components"][0]["tiling"] |= tiling
+    obj[stored] = json.dumps(report)
     places = {name: projected(points[vertex]) for name, vertex in marked.items()}
     unit, (x, y) = bpy.context.preferences.system.ui_scale, addon("overlays.marks_view").LEGEND
     places["legend"] = (region(area("VIEW_3D"), "WINDOW").width / 2 + unit * x, unit * y)
