@@ -25,11 +25,13 @@ constexpr double kPull = 3;                                   // with which fram
 constexpr int kTries = 4;                                     // of the nearest whole numbers
 // Parts of the area that are wrong: then other whole numbers do not help, or cones are not worth being evened.
 constexpr double kHopeless = 2e-3, kHopelessCones = 0.1;
-constexpr int kManyTriangles = 100'000;  // from which the first one that flips none is taken
-constexpr int kMostLevels = 4;           // of half the tiles each, for which cones are searched
-constexpr int kFurtherApart = 2;         // levels, where triangles are flipped
-constexpr double kHelps = 0.5;           // of the wrong area: else no more is tried
-constexpr int kMantissa = 23;            // of single precision, less the sign
+// From so many triangles on the first map is taken that flips none, or no more of the area than anyone sees.
+constexpr int kManyTriangles = 100'000;
+constexpr double kUnseen = 3e-5;
+constexpr int kMostLevels = 4;    // of half the tiles each, for which cones are searched
+constexpr int kFurtherApart = 2;  // levels, where triangles are flipped
+constexpr double kHelps = 0.5;    // of the wrong area: else no more is tried
+constexpr int kMantissa = 23;     // of single precision, less the sign
 
 // Cones on a surface, from those of a level of it: #V.
 std::vector<int> carried(const mesh::Surface& surface, const tiling::CoarseLevel& level, const Cones& cones) {
@@ -130,6 +132,7 @@ class PlacedCones {
   struct Judged {
     TurnedMap map;
     std::pair<double, double> bad{std::numeric_limits<double>::infinity(), 0};  // wrong area, strain
+    bool will_do = false;                                                       // no other cones are to be tried
   };
   // The best of the maps by the nearest whole numbers.
   Judged best_map(double tiles, double evenness, Execution& execution) const;
@@ -242,8 +245,9 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Executi
   Judged best;
   const int tries = std::min<int>(kTries, static_cast<int>(nearest.size()));
   const bool compares = net_.triangle_count() < kManyTriangles;
+  const double unseen = compares ? 0 : kUnseen * net_.whole_area;
   const double hopeless = kHopeless * net_.whole_area;
-  for (int i = 0; i < tries && (compares || best.bad.first > 0); ++i) {
+  for (int i = 0; i < tries && (compares || best.bad.first > unseen); ++i) {
     if (i > 0 && best.bad.first > hopeless) break;
     execution.stage("evening", 0.2 + 0.8 * i / tries, 0.2 + 0.8 * (i + 1) / tries);
     const VectorXcd y = nearest_.functions(nearest[i], false);  // conformal; evening may begin from a map more level
@@ -254,7 +258,7 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Executi
                                         strain(laid, evenness, execution)};
     if (!(bad < best.bad)) continue;
     const std::vector<Jump> jumps = jumps_of(*surface_, net_, frames_, space_, nearest[i].z);
-    best = {{std::move(uv), coordinates(y, nearest[i]), jumps, {}, {}}, bad};
+    best = {{std::move(uv), coordinates(y, nearest[i]), jumps, {}, {}}, bad, bad.first <= unseen};
   }
   for (int v = 0; v < surface_->vertex_count; ++v) {
     if (missing_[v] == 0 || net_.on_boundary[v]) continue;
@@ -349,7 +353,7 @@ TurnedMap TurnedMaps::turned_map(double tiles, double evenness, Execution& execu
   const int last = first + (are_chosen ? 0 : kFurtherApart);
   PlacedCones::Judged best;
   const PlacedCones* winner = nullptr;
-  for (int level = first; level <= last && best.bad.first > 0; ++level) {
+  for (int level = first; level <= last && !best.will_do; ++level) {
     const PlacedCones& tried = placed(level, execution);
     PlacedCones::Judged other = tried.best_map(tiles, evenness, execution);
     const bool helps = other.bad.first < kHelps * best.bad.first;
