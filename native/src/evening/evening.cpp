@@ -1,7 +1,6 @@
 #include "evening/evening.h"
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -48,8 +47,10 @@ solver::Condition condition(const std::vector<int>& kept) {
 // well.
 class Solvers {
  public:
-  Solvers(const mesh::HalfEdges& half_edges, solver::Method method, const Kept& kept)
-      : half_edges_(half_edges), method_(method), kept_(kept) {}
+  Solvers(const mesh::Surface& surface, const Kept& kept, const std::string& solver, Execution& execution)
+      : half_edges_(mesh::half_edges(surface, execution)),
+        method_(solver::choose_method(solver, surface.vertex_count, 2).method),
+        kept_(kept) {}
 
   void make(const Array<double>& edge_weights, Execution& execution) {
     u_.reset(), v_.reset();  // first, so that their memory is free for the new ones
@@ -79,7 +80,7 @@ class Solvers {
     return solver::make_solver(method_, forms::laplacian(half_edges_, edge_weights, execution), fixed, execution);
   }
 
-  const mesh::HalfEdges& half_edges_;
+  const mesh::HalfEdges half_edges_;
   const solver::Method method_;
   const Kept& kept_;
   std::shared_ptr<solver::LaplaceSolver> u_, v_;
@@ -97,18 +98,19 @@ struct Found {
 
 Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept& kept, double lambda,
             const std::string& solver_name, double& vertex_steps, Execution& execution) {
-  const mesh::HalfEdges half_edges = mesh::half_edges(surface, execution);
-  const auto method = solver::choose_method(solver_name, surface.vertex_count, 2).method;
-  Solvers solvers(half_edges, method, kept);
+  std::optional<Solvers> shifted;
   std::optional<TurnedSolver> turned;
-  if (!kept.turns.empty()) turned.emplace(surface, kept, solver_name);
+  if (kept.turns.empty())
+    shifted.emplace(surface, kept, solver_name, execution);
+  else
+    turned.emplace(surface, kept, solver_name);
   const auto make = [&](const Function& delta) -> Precondition {
-    if (turned) {
-      turned->make(energy.edge_weights(surface, delta, lambda), execution);
-      return [&](const Function& gradient) { return turned->precondition(gradient, execution); };
-    }
-    solvers.make(energy.edge_weights(surface, delta, lambda), execution);
-    return [&](const Function& gradient) { return solvers.precondition(gradient, execution); };
+    const Array<double> weights = energy.edge_weights(surface, delta, lambda);
+    const auto with = [&](auto& solver) -> Precondition {
+      solver.make(weights, execution);
+      return [&execution, made = &solver](const Function& gradient) { return made->precondition(gradient, execution); };
+    };
+    return shifted ? with(*shifted) : with(*turned);
   };
   Descent descent(
       energy, lambda, make, [&](Function& f) { clear(f, kept); }, execution.workers());
