@@ -6,6 +6,7 @@ import what needs these inside their functions.
 """
 
 from . import native, preferences
+from .command_line import registration
 from .interface import menus, panel
 from .operators import (
     bake,
@@ -30,6 +31,8 @@ bl_info = {
     "blender": (3, 4, 0),
     "location": "3D View and UV Editor > Sidebar > Holomorph; UV menus",
     "category": "UV",
+    "doc_url": "",
+    "tracker_url": "",
 }
 
 # In the order of registration.
@@ -49,6 +52,7 @@ MODULES = (
     tools,
     panel,
     menus,
+    registration,
 )
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finds the native package ``holomorph``, or says in one sentence what is missing.
 
-It is installed as a wheel (an extension, or pip), or lies in a folder that `beside` knows: in the zip for Blender
+It is installed as a wheel (an extension, or pip), or lies in a folder that `headless` knows: in the zip for Blender
 before 4.2, or in a checkout. Neither NumPy nor ``holomorph`` is imported at registration: the panel must draw without
 them.
 """
@@ -10,6 +10,8 @@ import functools
 import importlib
 import platform
 import sys
+
+from . import addresses
 
 NAME = "holomorph"
 # What the name of a zip says of the computer it is for, by what Python says of it.
@@ -42,10 +44,10 @@ def right_zip(blender, system, machine, tag):
     platform_name = PLATFORMS.get((system, machine))
     if platform_name is None or tag not in TAGS:
         return "no zip exists for this computer: compile the add-on on it with scripts/build"
-    if blender >= FIRST_WITH_EXTENSIONS:
-        return f"the zip to install in this Blender is the one whose name ends in {platform_name}.zip"
-    if (platform_name, tag) == ("linux_x64", "cp311"):
-        return "the zip to install in this Blender is the one whose name ends in blender-3.4.zip"
+    end = platform_name if blender >= FIRST_WITH_EXTENSIONS else "blender-3.4"
+    if end == platform_name or (platform_name, tag) == ("linux_x64", "cp311"):
+        place = f" at {addresses.DOWNLOAD}" if addresses.DOWNLOAD else ""
+        return f"the zip to install in this Blender is the one{place} whose name ends in {end}.zip"
     return "on this computer it needs Blender 4.2 or newer"
 
 
@@ -76,10 +78,10 @@ def _find():
 def _beside():
     """The package in a folder; None in an extension, which has it as a wheel."""
     try:
-        from . import beside
+        from . import headless
     except ImportError:
         return None
-    return beside.find(NAME, python_tag())
+    return headless.find(NAME, python_tag())
 
 
 @functools.lru_cache(maxsize=1)

@@ -1,11 +1,15 @@
-"""Put the add-on and its wheels into the zips that Blender installs, one a platform: make-zips.py FOLDER WHEEL..."""
+"""Put the add-on and its wheels into the zips that Blender installs, one a platform: make-zips.py FOLDER WHEEL...
 
-import io
+The wheels are those of the package index, byte for byte: the extension platform asks for that.
+"""
+
 import re
 import shutil
 import sys
 import zipfile
 from pathlib import Path
+
+import tomllib
 
 ROOT = Path(__file__).resolve().parents[1]
 ADDON = ROOT / "addon"
@@ -18,6 +22,7 @@ PLATFORMS = {
     "_aarch64": "linux-arm64",
 }
 LEGACY = ("linux-x64", "cp311")  # Debian's Blender 3.4 and its Python
+LEGACY_ONLY = "headless.py"  # imports packages from folders; an extension has wheels and a command
 # The folder in all zips. Blender 4.2 and later take the files out of it; an older one that is given their zip makes an
 # add-on of it, which says which zip is right. Not "holomorph": such a Blender puts the folder's parent on the import
 # path, where it would hide the package of that name.
@@ -27,6 +32,12 @@ DATE = (2000, 1, 1, 0, 0, 0)  # the same for every file: the same sources give t
 
 def platform_of(wheel):
     return next(platform for end, platform in PLATFORMS.items() if wheel.stem.endswith(end))
+
+
+def website():
+    """The address that pyproject.toml has for readers; None while it has none."""
+    with open(ROOT / "pyproject.toml", "rb") as file:
+        return tomllib.load(file)["project"]["urls"].get("Homepage")
 
 
 def addon_files():
@@ -39,34 +50,23 @@ def addon_files():
     return files | {name: (ROOT / name).read_bytes() for name in ("LICENSE", "NOTICE")}
 
 
-def with_wheels(manifest, platform, wheels):
-    """The manifest of one platform, naming its wheels in the same table, which comes before any other."""
+def completed(manifest, platform, wheels, website):
+    """The manifest of one platform, naming its wheels in the same table, which comes before any other, and the website
+    where there is one."""
     if re.search(r"^wheels\s*=", manifest, re.MULTILINE):
         raise SystemExit("make-zips.py: blender_manifest.toml lists wheels; the list is written here")
     names = "".join(f'  "./wheels/{wheel.name}",\n' for wheel in wheels)
-    lines = f'platforms = ["{platform}"]\nwheels = [\n{names}]'
+    lines = f'platforms = ["{platform}"]\nwheels = [\n{names}]' + (f'\nwebsite = "{website}"' if website else "")
     manifest, found = re.subn(r"^platforms = \[[^]]*\]$", lines, manifest, flags=re.MULTILINE)
     if found != 1:
         raise SystemExit("make-zips.py: blender_manifest.toml does not list the platforms")
     return manifest
 
 
-def uncompressed(wheel):
-    """The bytes of the wheel with its files as they are: compressed once, as a whole, they take a quarter less."""
-    result = io.BytesIO()
-    with zipfile.ZipFile(wheel) as source, zipfile.ZipFile(result, "w") as target:
-        for info in source.infolist():
-            data = source.read(info)
-            info.compress_type = zipfile.ZIP_STORED
-            target.writestr(info, data)
-    return result.getvalue()
-
-
 def write_zip(path, files):
     with zipfile.ZipFile(path, "w") as archive:
         for name in sorted(files):
-            # Blender takes a zip apart by its Python, which knows LZMA.
-            method = zipfile.ZIP_LZMA if name.endswith(".whl") else zipfile.ZIP_DEFLATED
+            method = zipfile.ZIP_STORED if name.endswith(".whl") else zipfile.ZIP_DEFLATED
             info = zipfile.ZipInfo(f"{FOLDER}/{name}", DATE)
             info.external_attr = 0o644 << 16
             archive.writestr(info, files[name], method)
@@ -75,10 +75,10 @@ def write_zip(path, files):
 
 def write_extension(folder, version, platform, wheels):
     files = addon_files()
-    del files["beside.py"]  # the package is a wheel here
+    del files[LEGACY_ONLY]
     manifest = files["blender_manifest.toml"].decode()
-    files["blender_manifest.toml"] = with_wheels(manifest, platform, wheels).encode()
-    files |= {f"wheels/{wheel.name}": uncompressed(wheel) for wheel in wheels}
+    files["blender_manifest.toml"] = completed(manifest, platform, wheels, website()).encode()
+    files |= {f"wheels/{wheel.name}": wheel.read_bytes() for wheel in wheels}
     write_zip(folder / f"holomorph-{version}-{platform.replace('-', '_')}.zip", files)
 
 

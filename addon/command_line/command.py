@@ -17,7 +17,7 @@ from ..operators.request import Run
 from ..results import report, stored
 from ..writing import transaction
 from . import baked, exchange, preview_scene, sources
-from .options import UsageError, parse
+from .options import PROGRAM, UsageError, parse
 
 EXIT_REFUSED, EXIT_STRICT, EXIT_FAULT, EXIT_INTERRUPTED = 1, 3, 70, 130
 
@@ -26,11 +26,11 @@ class NotFit(Exception):
     """What --strict does not let pass, though everything was written; the text is one sentence."""
 
 
-def main(arguments):
+def main(arguments, program=PROGRAM):
     """Ends the process with another status than 0 where the job is not done."""
     signal.signal(signal.SIGINT, signal.default_int_handler)  # Blender's own waits for a second Ctrl-C
     try:
-        for sentence in process(parse(arguments)):
+        for sentence in process(parse(arguments, program)):
             print(f"Holomorph: {_shown(sentence)}", file=sys.stderr)
     except (UsageError, OSError, RuntimeError) as error:
         # RuntimeError is how Blender's own operators report a file that cannot be written.

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
+from .. import addresses
 from ..baking.channels import CHANNELS, EACH, ONE, UDIM, USUAL_CHANNELS, BakeOptions
 from ..operators.properties import MapProperties, SharedProperties
 from ..operators.tile_properties import MOST_POLES, TileProperties
@@ -18,6 +19,7 @@ from . import exchange
 
 # Suffixes of the files that are written.
 SUFFIXES = {"output": (".blend", *exchange.SUFFIXES), "render": (".png",), "report": (".json",)}
+PROGRAM = "blender -b --disable-autoexec [file.blend] --python-exit-code 1 --python headless.py --"
 KINDS = {FloatProperty: float, IntProperty: int, StringProperty: str}
 
 
@@ -30,10 +32,11 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(message)
 
 
-def parse(arguments):
+def parse(arguments, program=PROGRAM):
     """The options. @throws UsageError"""
     parser = Parser(
-        prog="blender -b --disable-autoexec [file.blend] --python-exit-code 1 --python headless.py --",
+        prog=program,
+        epilog=addresses.DOCUMENTATION,
         description="Conformal UV maps for the surfaces in a mesh file or a .blend file.",
     )
     parser.add_argument("mesh", nargs="?", type=Path, help="OBJ, OFF, PLY, STL, glTF, FBX or USD; else the .blend")

@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solves in a worker thread, on copies of the arrays: no bpy in here, so Blender's window stays alive.
+"""Solves in a thread of the library, on copies of the arrays: no bpy in here, so Blender's window stays alive.
 
-A thread, for a call of the library takes seconds or minutes, while Blender's timers run between calls alone. It ends
-with the job.
+A call of the library takes seconds or minutes, while Blender's timers run between calls alone; they look at the work.
 """
 
 import hashlib
 import itertools
-import threading
 import time
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -135,7 +133,7 @@ def solved_anew(task, progress=None):
 
 
 class Work:
-    """Work that runs in a worker thread and can be cancelled: after `cancel()` the thread ends at the library's next
+    """Work that the library runs in a thread and that can be cancelled: after `cancel()` it ends at the library's next
     call of `watch`, and nothing more is solved or kept. Subclasses define `work`; one of `native.refusals` that ends it
     is the `error`.
 
@@ -145,24 +143,21 @@ class Work:
     def __init__(self, progress=None):
         self.watch = holomorph.core.progress.Watch(progress)
         self.error = None
-        self.failure = None  # anything but holomorph.Error is a bug of ours
-        self._thread = threading.Thread(target=self._guarded_run, name="holomorph")
+        self._future = None
 
     def start(self):
-        self._thread.start()
+        self._future = holomorph.core.progress.in_background(self.run)
 
     def cancel(self):
         self.watch.cancel()
 
     def is_running(self):
-        return self._thread.is_alive()
+        return self._future is not None and not self._future.done()
 
     def wait(self):
-        """Waits for the thread, and raises what went wrong in it unexpectedly."""
-        if self._thread.ident is not None:
-            self._thread.join()
-        if self.failure is not None:
-            raise self.failure
+        """Waits for the end, and raises what went wrong unexpectedly: anything but a refusal is a bug of ours."""
+        if self._future is not None:
+            self._future.result()
 
     def run(self):
         """Works here and now, in the calling thread."""
@@ -170,12 +165,6 @@ class Work:
             self.work()
         except native.refusals() as error:
             self.error = error
-
-    def _guarded_run(self):
-        try:
-            self.run()
-        except BaseException as error:  # noqa: BLE001  raised again by `wait` in the main thread
-            self.failure = error
 
 
 class Job(Work):

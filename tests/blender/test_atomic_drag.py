@@ -92,7 +92,7 @@ def dragged(window, key):
         raise RuntimeError("refused")  # as Blender does
     for kind in ("MOUSEMOVE", "LEFTMOUSE", "MOUSEMOVE", "TIMER"):
         assert event(kind) == {"RUNNING_MODAL"}
-    hand._job._thread.join()
+    hand._job._future.exception()  # no line of the add-on, in which an error could be raised
     event("TIMER")
     event("LEFTMOUSE", "RELEASE")
     return event(key)

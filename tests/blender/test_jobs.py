@@ -10,6 +10,7 @@ from loaded_addon import module
 from scenes import mesh_io, mesh_object, run, select, sphere_arrays, torus, torus_arrays, uv
 
 native = module("native")
+SECONDS = 60
 
 
 def task_of(obj):
@@ -104,9 +105,13 @@ def test_our_own_mistakes_come_out_of_the_thread(monkeypatch):
 
 
 def test_no_thread_is_left():
-    torus()
-    run()
-    assert not [t for t in threading.enumerate() if t.name == "holomorph"]
+    job = module("solving.jobs").Job([task_of(torus(around=60))])
+    job.start()
+    own = [thread for thread in threading.enumerate() if thread.name.startswith("holomorph")]
+    job.wait()
+    for thread in own:
+        thread.join(SECONDS)
+    assert own and not any(thread.is_alive() for thread in own)
 
 
 def test_the_oldest_solves_go_when_memory_is_full(monkeypatch):

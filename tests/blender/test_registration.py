@@ -85,6 +85,22 @@ def test_the_right_zip_is_named(blender, computer, tag, end):
     assert module("native").right_zip(blender, *computer, tag).endswith(end)
 
 
+def test_the_right_zip_is_named_with_the_place_where_it_is(monkeypatch):
+    monkeypatch.setattr(module("addresses"), "DOWNLOAD", "https://example.org/zips")
+    sentence = module("native").right_zip((4, 2, 0), "Windows", "AMD64", "cp311")
+    assert "is the one at https://example.org/zips whose name ends in windows_x64.zip" in sentence
+
+
+def test_the_command_of_an_extension_is_known_where_blender_has_such(capsys):
+    """Since 4.2; its exit status is returned, not raised."""
+    registration = module("command_line.registration")
+    assert len(registration._registered) == (bpy.app.version >= (4, 2, 0))
+    assert registration._run(["--bogus"]) == 1
+    assert "--bogus" in capsys.readouterr().err
+    assert registration._run(["--help"]) == 0
+    assert capsys.readouterr().out.startswith("usage: blender [file.blend] --command holomorph ")
+
+
 def test_the_sentence_of_a_missing_native_part_names_the_zip(addon, monkeypatch):
     native = module("native")
     monkeypatch.setattr(native, "NAME", "nothing_of_this_name")

@@ -35,12 +35,19 @@ def run_extension_program(python, *arguments):
 
 def extension(dist):
     """The extension for this computer."""
-    return next(path for path in dist.glob("*.zip") if "blender-3.4" not in path.name)
+    return next(dist.glob("holomorph-*-linux_x64.zip"))
+
+
+def wheels(dist):
+    """Those of this computer."""
+    return sorted(dist.glob("*linux*_x86_64.whl"))
 
 
 @pytest.fixture(scope="session")
 def dist(tmp_path_factory):
-    """The folder with the wheels and the zips."""
+    """The folder with the wheels, the source and the zips: HOLOMORPH_DIST, of a release, or made here."""
+    if os.environ.get("HOLOMORPH_DIST"):
+        return Path(os.environ["HOLOMORPH_DIST"])
     folder = Path(os.environ.get("HOLOMORPH_TEST_OUTPUT") or tmp_path_factory.mktemp("package")) / "dist"
     run(ROOT / "scripts" / "package-extension", folder)
     return folder

@@ -3,6 +3,7 @@
 BLENDER_USER_RESOURCES is a fresh folder, so that nobody's own settings are touched.
 """
 
+import importlib
 import os
 import sys
 from pathlib import Path
@@ -19,7 +20,11 @@ bpy.ops.extensions.package_install_files(
 )
 # The operator reports success even where it did nothing.
 assert MODULE in bpy.context.preferences.addons, "the extension was not enabled"
+folder = Path(importlib.import_module(MODULE).__file__).parent
+before = sorted(folder.rglob("*"))
 use_addon.use()
+new = [path for path in set(folder.rglob("*")) - set(before) if "__pycache__" not in path.parts]
+assert not new, f"the extension writes beside itself: {new}"
 # Classes that are still registered at the end make some versions crash or hang there.
 bpy.ops.preferences.addon_disable(module=MODULE)
 assert not hasattr(bpy.types, "HOLOMORPH_OT_maps"), "the add-on leaves classes behind"

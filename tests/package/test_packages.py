@@ -1,22 +1,27 @@
-"""The wheels and zips of scripts/package-extension: complete, accepted by Blender, working away from the checkout."""
+"""The wheels, source and zips of scripts/package-extension: complete, accepted by Blender, working away from here."""
 
+import email
+import json
+import re
 import shutil
 import subprocess
 import sys
-import venv
+import tarfile
 import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import extension, run, run_extension_program
-from repository import ROOT
+import tomllib
+from conftest import extension, run, run_extension_program, wheels
+from repository import ROOT, VERSION
 
 HERE = Path(__file__).resolve().parent
 # What every Linux with glibc has, the C++ run-time library included: Blender itself needs them.
 SYSTEM = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1", "libgcc_s.so.1", "libstdc++.so.6"}
 SYSTEM |= {"ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
 PLACE = "holomorph: "
+INSTALL = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
 
 
 def one(folder, pattern):
@@ -51,7 +56,7 @@ def needed(library):
 
 
 def test_the_wheels_are_self_contained(dist, tmp_path):
-    for wheel in dist.glob("*.whl"):
+    for wheel in wheels(dist):
         folder = tmp_path / wheel.name
         zipfile.ZipFile(wheel).extractall(folder)
         libraries = sorted(folder.rglob("*.so*"))
@@ -65,7 +70,7 @@ def test_the_wheels_are_self_contained(dist, tmp_path):
 def test_modules_are_hardened(dist, tmp_path):
     """All functions are found when the module is loaded, in a table that is read-only then: full RELRO. Overruns of
     arrays on the stack, and of copies of known size, end the program."""
-    for wheel in dist.glob("*.whl"):
+    for wheel in wheels(dist):
         zipfile.ZipFile(wheel).extractall(tmp_path / wheel.name)
         (module,) = (tmp_path / wheel.name).rglob("_native*.so")
         assert "GNU_RELRO" in dynamic(module) and "BIND_NOW" in dynamic(module)
@@ -73,9 +78,10 @@ def test_modules_are_hardened(dist, tmp_path):
         assert "__stack_chk_fail" in symbols
 
 
-def test_the_extension_is_valid(dist, bpy_python):
-    output = run_extension_program(bpy_python, "validate", extension(dist))
-    assert "warning" not in output.lower() and "error" not in output.lower(), output
+def test_extensions_are_valid(dist, bpy_python):
+    for path in set(dist.glob("holomorph-*.zip")) - set(dist.glob("*blender-3.4.zip")):
+        output = run_extension_program(bpy_python, "validate", path)
+        assert "warning" not in output.lower() and "error" not in output.lower(), output
 
 
 def test_the_extension_installs_and_works(dist, bpy_python, tmp_path):
@@ -91,34 +97,67 @@ def test_the_legacy_zip_installs_and_works(dist, blender, tmp_path):
 
 
 def test_the_same_sources_give_the_same_extension(dist, tmp_path):
-    run(sys.executable, ROOT / "scripts" / "make-zips.py", tmp_path, *sorted(dist.glob("*.whl")))
+    run(sys.executable, ROOT / "scripts" / "make-zips.py", tmp_path, *wheels(dist))
     assert extension(tmp_path).read_bytes() == extension(dist).read_bytes()
 
 
-@pytest.fixture
-def folder_of_ccache():
-    """Settings with which ccache knows what scripts/build compiled: its folders are as deep."""
-    folder = ROOT / "build" / "cmake" / "pip"
-    shutil.rmtree(folder, ignore_errors=True)
-    yield {
-        "CXX": "c++",
-        "CMAKE_CXX_COMPILER_LAUNCHER": shutil.which("ccache") or "",
-        "CMAKE_BUILD_PARALLEL_LEVEL": 2,
-        "CCACHE_BASEDIR": ROOT,
-        "CCACHE_NOHASHDIR": 1,
-        "SKBUILD_BUILD_DIR": folder,
-    }
-    shutil.rmtree(folder, ignore_errors=True)
+def new_environment(folder, python):
+    """The Python of an environment that has nothing but pip."""
+    run(python, "-m", "venv", folder)
+    return folder / "bin" / "python"
+
+
+def check_that_it_works(python, tmp_path):
+    """@param python that of an environment with the package"""
+    write_torus(tmp_path / "torus.obj")
+    run(python, "-m", "holomorph", tmp_path / "torus.obj", "--report", tmp_path / "report.json")
+    assert json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))["holomorph"] == VERSION
+    run(
+        python,
+        "-c",
+        "import holomorph, pathlib; assert (pathlib.Path(holomorph.__file__).parent / 'py.typed').exists()",
+    )
+
+
+def find_python(version):
+    found = run("bash", "-c", f". {ROOT}/scripts/environment; find_python {version} || true").strip()
+    return found or pytest.skip(f"no Python {version}")
+
+
+@pytest.mark.parametrize("version", ["3.11", "3.13"])
+def test_pip_installs_the_wheel_without_blender(dist, tmp_path, version):
+    tag = f"cp{version.replace('.', '')}"
+    wheel = next((wheel for wheel in wheels(dist) if f"-{tag}-" in wheel.name), None) or pytest.skip(f"no wheel {tag}")
+    python = new_environment(tmp_path / "venv", find_python(version))
+    run(python, *INSTALL, wheel)
+    check_that_it_works(python, tmp_path)
 
 
 @pytest.mark.timeout(1300)  # without ccache it compiles everything
-@pytest.mark.parametrize("source", ["wheel", "checkout"])
-def test_pip_installs_the_package_without_blender(dist, tmp_path, source, folder_of_ccache):
-    venv.create(tmp_path / "venv", with_pip=True)
-    python = tmp_path / "venv" / "bin" / "python"
-    what = one(dist, "*-cp311-*.whl") if source == "wheel" else ROOT
-    install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", what]
-    run(*install, seconds=1200, **folder_of_ccache)
-    write_torus(tmp_path / "torus.obj")
-    run(python, "-m", "holomorph", tmp_path / "torus.obj", "--report", tmp_path / "report.json")
-    assert (tmp_path / "report.json").stat().st_size > 0
+def test_pip_installs_the_source(dist, tmp_path):
+    """With what it says it needs. Its folders are a checkout's, for ccache to know what scripts/build has compiled."""
+    with tarfile.open(one(dist, "*.tar.gz")) as archive:
+        archive.extractall(tmp_path, filter="data")
+    source = one(tmp_path, "holomorph-*")
+    python = new_environment(source / "build" / "venv" / "build-cp311", find_python("3.11"))
+    run(python, *INSTALL, *tomllib.loads((source / "pyproject.toml").read_text())["build-system"]["requires"])
+    settings = {
+        "CXX": "c++",
+        "CMAKE_CXX_COMPILER_LAUNCHER": shutil.which("ccache") or "",
+        "CMAKE_BUILD_PARALLEL_LEVEL": 2,
+        "CCACHE_BASEDIR": source,
+        "CCACHE_NOHASHDIR": 1,
+        "SKBUILD_BUILD_DIR": source / "build" / "cmake" / "cp311",
+    }
+    run(python, *INSTALL, "--no-build-isolation", source, seconds=1200, **settings)
+    check_that_it_works(python, tmp_path)
+
+
+def test_the_page_of_the_package_stands_alone(dist):
+    """It has an author, its types, and no address that is none on the page of an index."""
+    with zipfile.ZipFile(wheels(dist)[0]) as wheel:
+        text = wheel.read(f"holomorph-{VERSION}.dist-info/METADATA").decode()
+    about, page = email.message_from_string(text), text.partition("\n\n")[2]
+    assert about["Author"] and "Typing :: Typed" in about.get_all("Classifier")
+    assert all(address.startswith("https://") for address in re.findall(r"\]\((.*?)\)", page))
+    assert len(page) > 500

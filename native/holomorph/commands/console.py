@@ -7,7 +7,7 @@ import os
 import signal
 import sys
 
-from ..core import unexpected
+from ..core import addresses, unexpected
 
 INTERRUPTED = 130  # exit status after Ctrl-C, or SIGTERM, as shells have it
 JOINERS = "\u200c\u200d"  # which scripts and pictures need between letters
@@ -66,7 +66,11 @@ def failed(status, problem):
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser of arguments that ends as the commands do if an output is closed or full."""
+    """A parser of arguments that ends as the commands do if an output is closed or full. Its help ends with the address
+    of the documentation."""
+
+    def format_help(self):
+        return super().format_help() + (f"\n{addresses.DOCUMENTATION}\n" if addresses.DOCUMENTATION else "")
 
     def error(self, message):
         self.print_usage(sys.stderr)

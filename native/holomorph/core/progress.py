@@ -1,4 +1,4 @@
-"""Progress functions of parts of the work, one that is looked at, and work on parts in several threads."""
+"""Progress functions of parts of the work, one that is looked at, work in a thread, and parts in several threads."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -39,6 +39,14 @@ class Watch:
     def part(self, begin: float, end: float) -> Progress | None:
         """The progress function for a part of the work, as `scaled`."""
         return scaled(self, begin, end)
+
+
+def in_background(work: Callable[[], object]) -> Future:
+    """Starts the work in a thread of its own, which ends with it. The future tells when, and raises what was raised."""
+    pool = ThreadPoolExecutor(1, "holomorph")
+    future = pool.submit(work)
+    pool.shutdown(wait=False)
+    return future
 
 
 LARGE = 20_000  # triangles from which on a part keeps all threads busy by itself

@@ -8,6 +8,7 @@ import tempfile
 import traceback
 
 from .. import _native
+from . import addresses
 from .value import shortened
 
 STATUS = 70  # the exit status of a fault inside a program, EX_SOFTWARE of sysexits.h
@@ -16,8 +17,12 @@ STATUS = 70  # the exit status of a fault inside a program, EX_SOFTWARE of sysex
 def told(error: BaseException) -> str:
     """The sentence; the report that it names is written."""
     path = _written(report(error))
-    where = f"please send the report {path}, which holds no mesh" if path else "the report could not be written"
+    where = f"please send the report {path}, which holds no mesh{_to()}" if path else "the report could not be written"
     return "; ".join([sentence(error), *getattr(error, "__notes__", ()), where])
+
+
+def _to():
+    return f", to {addresses.ISSUES}" if addresses.ISSUES else ""
 
 
 def sentence(error: BaseException) -> str:

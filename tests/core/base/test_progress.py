@@ -1,9 +1,13 @@
 """What is told of the work, and what is kept of its results."""
 
+import threading
 from types import SimpleNamespace
 
+import pytest
 from holomorph.core.newest import Kept
-from holomorph.core.progress import Watch, scaled
+from holomorph.core.progress import Watch, in_background, scaled
+
+SECONDS = 60
 
 
 def test_a_watch_keeps_what_it_is_told_until_it_is_cancelled():
@@ -36,3 +40,13 @@ def test_values_that_have_grown_are_dropped_when_they_are_counted_again():
     assert kept.values() == [first, second]
     kept.trim()
     assert kept.values() == [second]
+
+
+def test_work_in_the_background_is_looked_at_and_raises_its_error():
+    may_end, ident = threading.Event(), []
+    future = in_background(lambda: ident.append(threading.get_ident()) or may_end.wait(SECONDS))
+    assert not future.done()
+    may_end.set()
+    assert future.result() is True and ident != [threading.get_ident()]
+    with pytest.raises(ZeroDivisionError):
+        in_background(lambda: 1 // 0).result()

@@ -58,8 +58,7 @@ ADDON_BELOW = {
     "interface": ["operators"],
     "command_line": ["operators"],
 }
-ADDON_TOP = {ADDON / "__init__.py", ADDON / "headless.py"}  # these start the rooms
-WITHOUT_BPY = {"solving"}
+ADDON_TOP = {ADDON / "__init__.py"}  # it starts the rooms
 # One word for one thing: what is not said, and what is said instead.
 WORDS = {
     r"punctur": "pole",
@@ -285,21 +284,6 @@ def test_addon_imports_go_down():
     assert not wrong
 
 
-def test_the_addon_asks_no_network_and_starts_no_program():
-    """It has no permission for the one, and the only thread is that of its jobs."""
-    forbidden = {"http", "socket", "subprocess", "urllib", "multiprocessing", "threading", "_thread"}
-    found = {
-        identify(path): {name.partition(".")[0] for name in imports(path)} & forbidden for path in python_files(ADDON)
-    }
-    assert {name: words for name, words in found.items() if words} == {"addon/solving/jobs.py": {"threading"}}
-
-
-def test_only_files_outside_the_extension_load_modules_by_hand():
-    """One imports the package of the zip for Blender 3.4, one starts the add-on as a command."""
-    using = {identify(path) for path in python_files(ADDON) if "sys.modules" in path.read_text(encoding="utf-8")}
-    assert using == {"addon/beside.py", "addon/headless.py"}
-
-
 def test_addon_imports_have_no_circle():
     done = set()
 
@@ -314,10 +298,11 @@ def test_addon_imports_have_no_circle():
         visit(path, [])
 
 
-def test_solving_knows_nothing_of_blender():
-    """It runs in worker threads."""
-    files = [path for path in python_files(ADDON) if addon_room(path) in WITHOUT_BPY]
-    assert files and not [identify(path) for path in files if imports(path) & {"bpy", "bmesh", "mathutils"}]
+def test_what_runs_in_threads_knows_nothing_of_blender():
+    """Each `jobs.Work`, and what follows a solve."""
+    works = [path for path in python_files(ADDON) if re.search(r"\(jobs\.Work\)", path.read_text("utf-8"))]
+    files = [*works, *(ADDON / "solving").glob("*.py"), ADDON / "maps" / "mapped.py"]
+    assert len(works) > 2 and not [identify(path) for path in files if imports(path) & {"bpy", "bmesh", "mathutils"}]
 
 
 def loaded_at_registration():
