@@ -6,7 +6,6 @@ import re
 import shutil
 import subprocess
 import sys
-import tarfile
 import zipfile
 from pathlib import Path
 
@@ -136,9 +135,9 @@ def test_pip_installs_the_wheel_without_blender(dist, tmp_path, version):
 @pytest.mark.timeout(1300)  # without ccache it compiles everything
 def test_pip_installs_the_source(dist, tmp_path):
     """With what it says it needs. Its folders are a checkout's, for ccache to know what scripts/build has compiled."""
-    with tarfile.open(one(dist, "*.tar.gz")) as archive:
-        archive.extractall(tmp_path, filter="data")
+    shutil.unpack_archive(one(dist, "*.tar.gz"), tmp_path)
     source = one(tmp_path, "holomorph-*")
+    assert {path.name for path in source.iterdir() if path.is_dir()} == {"native"}
     python = new_environment(source / "build" / "venv" / "build-cp311", find_python("3.11"))
     run(python, *INSTALL, *tomllib.loads((source / "pyproject.toml").read_text())["build-system"]["requires"])
     settings = {
