@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 from holomorph import __version__
+from holomorph.core import addresses
 from numpy.typing import ArrayLike
 from sphinx.util.typing import stringify_annotation
 
@@ -38,6 +39,7 @@ add_module_names = False
 
 html_theme = "furo"
 html_title = "Holomorph"
+html_baseurl = addresses.DOCUMENTATION
 html_static_path = [str(WORK / "static")]
 html_css_files = ["site.css"]
 html_show_search_summary = False  # it would fetch the pages, which files may not

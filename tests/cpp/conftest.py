@@ -28,12 +28,12 @@ def installed(folder):
 
 
 @pytest.fixture(scope="session")
-def example(installed, folder):
-    """The program openmesh_uv, built against the installed package and nothing of the checkout."""
+def examples(installed, folder):
+    """The folder of the programs, built against the installed package and nothing of the checkout."""
     build = folder / "examples"
     options = [f"-DCMAKE_PREFIX_PATH={installed('cpp')}", "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror", "-G", "Ninja"]
     if shutil.which("ccache"):
         options.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
     output("cmake", "-S", ROOT / "examples", "-B", build, *options)
     output("cmake", "--build", build)
-    return build / "openmesh_uv"
+    return build

@@ -75,9 +75,9 @@ def edges_with_jumps(surface, uv):
     return jumps
 
 
-def test_example_equals_the_python_package(example, mesh_file):
+def test_example_equals_the_python_package(examples, mesh_file):
     target = mesh_file.with_name("out.obj")
-    done = run(example, mesh_file, target)
+    done = run(examples / "openmesh_uv", mesh_file, target)
     assert done.returncode == 0, done.stderr
     surface = holomorph.Surface.read(mesh_file)
     expected = np.full((len(surface.corner_vertices), 2), np.nan)
@@ -95,7 +95,8 @@ def test_example_equals_the_python_package(example, mesh_file):
     assert [line.split(", ")[1] for line in done.stdout.splitlines() if "seam edges" in line] == counts
 
 
-def test_example_says_what_is_wrong(example, tmp_path):
+def test_example_says_what_is_wrong(examples, tmp_path):
+    example = examples / "openmesh_uv"
     missing = run(example, tmp_path / "missing.obj", tmp_path / "out.obj")
     assert missing.returncode == 1 and "missing.obj" in missing.stderr
     pinched = tmp_path / "pinched.obj"
@@ -115,7 +116,18 @@ def test_headers_name_installed_headers_alone(installed):
             found = (include / name).exists() if "/" in name else (header.parent / name).exists()
             wrong += [] if found else [f"{header.relative_to(include)} includes {name}"]
     assert not wrong
-    assert not (include / "holomorph" / "bindings").exists()
+
+
+def test_no_other_headers_are_installed_than_the_public_ones_reach(installed):
+    include = installed("cpp") / "include"
+    reached, waiting = set(), [include / "holomorph" / name for name in ("holomorph.h", "openmesh.h")]
+    while waiting:
+        header = waiting.pop()
+        if header not in reached:
+            reached.add(header)
+            names = re.findall(r'^#include "([^"]+)"', header.read_text(encoding="utf-8"), re.MULTILINE)
+            waiting += [include / name if "/" in name else header.parent / name for name in names]
+    assert reached == set(include.rglob("*.h"))
 
 
 @pytest.mark.parametrize(

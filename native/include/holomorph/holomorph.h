@@ -10,12 +10,14 @@
 //   const auto c = structure::balanced_coefficients(found, *forms, execution);
 //   const auto uv = structure::uv_map(found, *forms, c, execution);  // #corners x 2
 //
-// The last four lines are structure::balanced_map(part, options, execution). Errors are the exceptions of
+// The last four lines are structure::balanced_map(part, options, execution). Seamless tilings are tiling::place and
+// tiling::tile, those that turn turns::TurnedMaps; uv::quality measures any map. Errors are the exceptions of
 // base/errors.h.
 #pragma once
 
 #include "base/errors.h"
 #include "base/execution.h"
+#include "evening/evening.h"
 #include "mesh/components.h"
 #include "mesh/io/read.h"
 #include "mesh/make_surface.h"
@@ -29,4 +31,6 @@
 #include "structure/pole_structure.h"
 #include "structure/primal_forms.h"
 #include "structure/structure.h"
+#include "tiling/tiling.h"
+#include "turns/turned_map.h"
 #include "uv/quality.h"

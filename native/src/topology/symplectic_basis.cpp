@@ -1,5 +1,6 @@
 #include "topology/symplectic_basis.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -8,12 +9,13 @@
 namespace holomorph::topology {
 namespace {
 
+constexpr double kLargest = 0x1p62;  // half of what fits: the bound below is rounded
+
 std::int64_t checked_subtract_product(std::int64_t a, std::int64_t factor, std::int64_t b) {
-  std::int64_t product, result;
-  if (__builtin_mul_overflow(factor, b, &product) || __builtin_sub_overflow(a, product, &result)) {
-    throw Error("the canonical homology basis needs integers beyond 64 bits");
-  }
-  return result;
+  const double bound =
+      std::abs(static_cast<double>(a)) + std::abs(static_cast<double>(factor) * static_cast<double>(b));
+  if (bound > kLargest) throw Error("the canonical homology basis needs integers beyond 62 bits");
+  return a - factor * b;
 }
 
 // Rows of S, and their products W(i, j) = S_i W S_j^T, kept up to date. Every step is a unimodular change of the rows.

@@ -26,6 +26,7 @@ KINDS = {"", "python", "py", "text", "toml", "yaml", "cmake", "cpp", "math"}
 # Commands of other programs, and the tests that run them; or "" where that takes a cluster.
 ELSEWHERE = {
     "cmake": "tests/cpp/conftest.py",
+    "c++": "tests/cpp/test_consumers.py",
     "build/examples/openmesh_uv": "tests/cpp/test_installed.py",
     "openssl": "tests/batch/test_dask.py",
     "dask": "tests/batch/test_dask.py",
