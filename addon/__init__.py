@@ -7,10 +7,11 @@ import what needs these inside their functions.
 
 from . import native, preferences
 from .command_line import registration
-from .interface import menus, panel
+from .interface import map_panel, menus, panel
 from .operators import (
     bake,
     compare,
+    dials,
     drag,
     elements,
     geometry,
@@ -38,6 +39,7 @@ bl_info = {
 # In the order of registration.
 MODULES = (
     preferences,
+    dials,
     mapping,
     drag,
     elements,
@@ -50,8 +52,9 @@ MODULES = (
     bake,
     overlay,
     tools,
-    panel,
+    map_panel,
     menus,
+    panel,
     registration,
 )
 

@@ -13,8 +13,10 @@ from ..levels import level_objects
 from ..levels.levels import LevelOptions
 from ..materials import user_texture
 from ..native import holomorph
+from ..operators import dials
 from ..operators.request import Run
 from ..results import report, stored
+from ..scene import stored_dials
 from ..writing import transaction
 from . import baked, exchange, preview_scene, sources
 from .options import PROGRAM, UsageError, parse
@@ -62,6 +64,8 @@ def process(options):
     """Does the job; returns the sentences about what was not done."""
     if native.problem():
         raise UsageError(native.problem())
+    if not hasattr(bpy.types.Object, stored_dials.NAME):  # the add-on is not enabled
+        dials.register()
     _check_places(options)
     start = time.perf_counter()
     try:

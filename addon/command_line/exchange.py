@@ -9,7 +9,7 @@ import bpy
 from .. import compatibility, native
 from ..materials import material, plain
 from ..native import holomorph
-from ..scene import gathering, uv_maps
+from ..scene import gathering, stored_dials, uv_maps
 from ..writing import states
 
 USD = (".usd", ".usda", ".usdc", ".usdz")
@@ -140,6 +140,8 @@ def _clean(owner, forms):
         main, layers = uv_maps.main_map(owner), owner.uv_layers
         for name in [name for name in uv_maps.own_maps(owner) if name != main and name in layers]:
             layers.remove(layers[name])
+    if isinstance(owner, bpy.types.Object):
+        stored_dials.forget(owner)
     states.restore_properties(owner, {})
 
 

@@ -13,8 +13,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 
 from .. import addresses
 from ..baking.channels import CHANNELS, EACH, ONE, UDIM, USUAL_CHANNELS, BakeOptions
-from ..operators.properties import MapProperties, SharedProperties
-from ..operators.tile_properties import MOST_POLES, TileProperties
+from ..operators.properties import FORMS, MOST_POLES, Dials, OfOneRun
 from . import exchange
 
 # Suffixes of the files that are written.
@@ -50,9 +49,9 @@ def parse(arguments, program=PROGRAM):
     parser.add_argument("--render", type=Path, help="where to save a picture (PNG)")
     parser.add_argument("--report", type=Path, help="where to save the report (JSON)")
     parser.add_argument("--object", action="append", default=[], help="only this object (may be repeated)")
-    _add_properties(parser, SharedProperties, "evenness", "turns", "rows", "texture", "source", "size", "seams")
-    _add_properties(parser, MapProperties, "main", "forms", "shown", "density", "margin", "rotation")
-    _add_properties(parser, MapProperties, "checker_scale", "shape")
+    _add_properties(parser, Dials, "evenness", "turns", "rows", "texture", "source", "size", "seams")
+    _add_properties(parser, Dials, "main", "forms", "shown", "density", "margin", "rotation")
+    _add_properties(parser, Dials, "checker_scale", "shape")
     text = "each object fills the UV square, instead of equal texels per metre"
     parser.add_argument("--fill-each", dest="equal", action="store_false", help=text)
     parser.add_argument("--no-checker", dest="checker", action="store_false", help="leave materials alone")
@@ -114,12 +113,12 @@ def _take_over(options):
     """Adds what the operators' properties have besides, under their names."""
     for name in ("main", "texture", "turns", "rows", "direction", "poles"):
         setattr(options, name, getattr(options, name).upper())
-    options.use_selection, options.amounts, options.phases = options.selection.upper(), (), ()
+    options.use_selection, options.amounts, options.phases = options.selection.upper(), (1.0,) * FORMS, (0.0,) * FORMS
+    options.quarters, options.repeats, options.empties, options.moved = 0, 1, False, ""
+    if options.poles.isdecimal():
+        options.poles, options.pole_count = "COUNT", int(options.poles)
     if options.seamless:
-        options.turn, options.quarters, options.repeats, options.empties = options.rotation, 0, 1, False
-        if options.poles.isdecimal():
-            options.poles, options.pole_count = "COUNT", int(options.poles)
-    options.is_tiling = options.seamless
+        options.main = "SEAMLESS"
 
 
 def _add_choices(parser):
@@ -127,8 +126,9 @@ def _add_choices(parser):
     group.add_argument("--pole", type=int, action="append", default=[], metavar="V", help="may be repeated")
     group.add_argument("--rectangle", type=int, nargs=4, metavar="V", help="corners on the boundary of a disk")
     group.add_argument("--selection", choices=("automatic", "faces", "poles", "rectangle", "none"), default="none")
-    _add_properties(group, SharedProperties, "modifiers")
-    _add_properties(group, MapProperties, "residues", "cut_at_seams", "hard_edges", "most_stretch")
+    _add_properties(group, Dials, "modifiers")
+    _add_properties(group, Dials, "cut_at_seams", "hard_edges", "most_stretch")
+    _add_properties(group, OfOneRun, "residues")
     group.add_argument("--solver", default="auto", help="as in holomorph.conformal_structure")
 
 
@@ -136,7 +136,7 @@ def _add_tilings(parser):
     group = parser.add_argument_group("seamless tilings, only with --seamless")
     group.add_argument("--seamless", action="store_true", help="one map, cut by whole tiles of a texture")
     group.add_argument("--poles", default="automatic", help="automatic, selected (in the .blend), or a number per part")
-    _add_properties(group, TileProperties, "tiles", "pole_group", "lattice", "direction", "boundary")
+    _add_properties(group, Dials, "tiles", "pole_group", "lattice", "direction", "boundary")
 
 
 def _add_bake(parser):

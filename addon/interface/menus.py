@@ -1,26 +1,70 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pie menu, the keys, and the presets that come with the add-on.
+"""The pie menu, the keys, and the presets of the dials.
 
-Shift U is for the pie menu, Ctrl Shift U for the maps: Preferences, Keymap, has both. The presets are in Blender's own
-menu of an operator's presets: Blender looks for presets in folders of its own, whose list an add-on can extend in new
-versions only.
+Shift U is for the pie menu, Ctrl Shift U for the button: Preferences, Keymap, has both. A preset is a file that sets
+dials of the active object: some come with the add-on, further ones are the user's.
 """
 
 from pathlib import Path
 
 import bpy
+from bl_operators.presets import AddPresetBase
+from bl_ui.utils import PresetPanel
+from bpy.props import StringProperty
 
-from ..operators import texel_operators
 from ..operators.drag import HOLOMORPH_OT_drag_poles
-from ..operators.elements import HOLOMORPH_OT_select_bad
-from ..operators.lod import HOLOMORPH_OT_levels
-from ..operators.mapping import HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
+from ..operators.elements import HOLOMORPH_OT_select_stretched
+from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, press
+from ..operators.mixins import OnMeshes
+from ..operators.properties import Dials
 from ..operators.tools import HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_restore_materials
+from ..overlays import overlay
+from ..scene import stored_dials
 
 KEY = "U"
 KEYMAPS = ("Object Mode", "EMPTY"), ("Mesh", "EMPTY"), ("UV Editor", "EMPTY")  # name, kind of space
+FOLDER = Path(__file__).parents[1] / "presets" / "holomorph"
+OF_ONE_OBJECT = {"source", "pole_group"}  # dials that name what another object may lack
 
 _entries = []  # (keymap, its item)
+
+
+class HOLOMORPH_PT_presets(PresetPanel, bpy.types.Panel):
+    bl_label = "Presets"
+    preset_subdir = FOLDER.name  # of the user's own, in Blender's folders
+    preset_operator = "uv.holomorphic_preset"
+    preset_add_operator = "uv.holomorphic_preset_add"
+
+    def draw(self, _context):
+        self.layout.emboss, self.layout.operator_context = "PULLDOWN_MENU", "EXEC_DEFAULT"
+        own = bpy.utils.preset_paths(self.preset_subdir)
+        for folders, add in (([str(FOLDER)], None), (own, self.preset_add_operator)):
+            self.path_menu(folders, self.preset_operator, filter_ext=lambda end: end == ".py", add_operator=add)
+
+
+class HOLOMORPH_OT_preset_add(AddPresetBase, bpy.types.Operator):
+    """Keep the dials of the active object under a name, or remove what has this name"""
+
+    bl_idname = HOLOMORPH_PT_presets.preset_add_operator
+    bl_label = "Add Preset"
+    preset_menu = HOLOMORPH_PT_presets.__name__
+    preset_subdir = HOLOMORPH_PT_presets.preset_subdir
+    preset_defines = [f"dials = bpy.context.active_object.{stored_dials.NAME}"]
+    preset_values = [f"dials.{name}" for name in Dials.__annotations__ if name not in OF_ONE_OBJECT]
+
+
+class HOLOMORPH_OT_preset(OnMeshes, bpy.types.Operator):
+    """Set the dials, and make the map of them"""
+
+    bl_idname = HOLOMORPH_PT_presets.preset_operator
+    bl_label = "Preset"
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+    filepath: StringProperty(subtype="FILE_PATH", options={"HIDDEN", "SKIP_SAVE"})
+
+    def execute(self, context):
+        with stored_dials.quietly():
+            bpy.utils.execfile(self.filepath)
+        return press(context.active_object) - {"RUNNING_MODAL"} or {"FINISHED"}
 
 
 class HOLOMORPH_MT_pie(bpy.types.Menu):
@@ -30,54 +74,25 @@ class HOLOMORPH_MT_pie(bpy.types.Menu):
         pie = self.layout.menu_pie()
         pie.operator_context = "INVOKE_DEFAULT"
         pie.operator(HOLOMORPH_OT_maps.bl_idname, icon="UV")  # from the left, then right, below, above, the corners
-        pie.operator(HOLOMORPH_OT_tile.bl_idname, icon="TEXTURE")
-        if context.mode == "EDIT_MESH":
-            pie.operator(HOLOMORPH_OT_maps.bl_idname, text="Corners of a Rectangle").use_selection = "RECTANGLE"
-            pie.operator(HOLOMORPH_OT_maps.bl_idname, text="Poles").use_selection = "POLES"
-        else:
-            pie.operator(HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
-            pie.operator(HOLOMORPH_OT_drag_poles.bl_idname)
+        pie.operator(HOLOMORPH_OT_drag_poles.bl_idname, icon="VIEW_PAN")
+        pie.operator(HOLOMORPH_OT_islands.bl_idname, icon="UV_ISLANDSEL")
+        pie.prop(context.window_manager, overlay.MARKS)
+        presets = pie.operator("wm.call_panel", text=HOLOMORPH_PT_presets.bl_label, icon="PRESET")
+        presets.name = HOLOMORPH_PT_presets.__name__
+        pie.operator(HOLOMORPH_OT_select_stretched.bl_idname, icon="ERROR")
         pie.operator(HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
         pie.operator(HOLOMORPH_OT_remove_maps.bl_idname, icon="X")
-        pie.operator(HOLOMORPH_OT_select_bad.bl_idname, icon="ERROR")
-        pie.operator(texel_operators.HOLOMORPH_OT_texels_set.bl_idname)
 
 
-FOLDER = Path(__file__).parents[1] / "presets" / "operator"
-NAMES = HOLOMORPH_OT_maps.bl_idname, HOLOMORPH_OT_tile.bl_idname  # of the operators, and of their folders
-MENU = "WM_MT_operator_presets"
-
-
-def _draw(menu, context):
-    operator = context.active_operator
-    name = next((n for n in NAMES if operator is not None and operator.bl_idname == _class_name(n)), None)
-    if name is None:
-        return
-    menu.layout.separator()
-    menu.path_menu(
-        [str(FOLDER / name)],
-        menu.preset_operator,
-        props_default={"menu_idname": MENU},
-        filter_ext=lambda extension: extension == ".py",
-    )
-
-
-def _class_name(idname):
-    """The name of an operator's class, as an operator that was run has it."""
-    room, name = idname.split(".")
-    return f"{room.upper()}_OT_{name}"
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(
+    [HOLOMORPH_PT_presets, HOLOMORPH_OT_preset_add, HOLOMORPH_OT_preset, HOLOMORPH_MT_pie]
+)
 
 
 def register():
-    _register_keys()
-    if not bpy.app.background:
-        for name in NAMES:  # without a folder for the user's own presets, Blender's menu says that paths are missing
-            bpy.utils.user_resource("SCRIPTS", path=str(Path("presets", "operator", name)), create=True)
-    getattr(bpy.types, MENU).append(_draw)
-
-
-def _register_keys():
-    bpy.utils.register_class(HOLOMORPH_MT_pie)
+    _register_classes()
+    if not bpy.app.background:  # without a folder for the user's own, Blender says that paths are missing
+        bpy.utils.user_resource("SCRIPTS", path=str(Path("presets", FOLDER.name)), create=True)
     keys = bpy.context.window_manager.keyconfigs.addon
     if keys is None:  # without a window
         return
@@ -90,8 +105,7 @@ def _register_keys():
 
 
 def unregister():
-    getattr(bpy.types, MENU).remove(_draw)
     while _entries:
         keymap, item = _entries.pop()
         keymap.keymap_items.remove(item)
-    bpy.utils.unregister_class(HOLOMORPH_MT_pie)
+    _unregister_classes()

@@ -7,7 +7,6 @@ from .. import native
 from ..operators import (
     bake,
     compare,
-    drag,
     elements,
     geometry,
     lod,
@@ -16,9 +15,8 @@ from ..operators import (
     tools,
 )
 from ..operators.mapping import HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
-from ..operators.mixins import CONVERT, CONVERTIBLE
 from ..overlays import overlay
-from . import lines
+from . import lines, map_panel, menus
 
 INDENT = 8  # spaces before what is continued on a further line
 
@@ -29,27 +27,13 @@ class _Panel:
     bl_region_type = "UI"
 
 
-class _HolomorphPanel(_Panel):
-    def draw(self, context):
-        layout = self.layout
-        column = layout.column(align=True)
-        column.operator(HOLOMORPH_OT_maps.bl_idname, icon="UV")
-        column.operator(HOLOMORPH_OT_tile.bl_idname, icon="TEXTURE")
-        if native.problem():
-            lines.draw(layout.column(align=True), context, native.problem(), "ERROR")
-            return
-        if context.mode == "EDIT_MESH":
-            _draw_choices(layout)
-        obj = context.active_object
-        if obj is not None and obj.type == "MESH":
-            if context.mode == "OBJECT":
-                _draw_modifiers(column, context, obj)
-                layout.operator(lod.HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
-            _draw_result(layout, context, obj)
-        elif obj is not None and obj.type in CONVERTIBLE:
-            lines.draw(column, context, CONVERT, "INFO")
-        if context.mode == "OBJECT":
-            _draw_overlays(layout, context)
+class _MapPanel(map_panel.MapPanel, _Panel):
+    def draw_header_preset(self, _context):
+        menus.HOLOMORPH_PT_presets.draw_panel_header(self.layout)
+
+
+class _AdvancedPanel(map_panel.AdvancedPanel, _Panel):
+    pass
 
 
 class _DetailsPanel(_Panel):
@@ -68,16 +52,39 @@ class _DetailsPanel(_Panel):
 
     def draw(self, context):
         from ..results import report, stored
+        from . import verdict_view
 
-        column = self.layout.column(align=True)
+        column, entry = self.layout.column(align=True), stored.parsed(context.active_object[report.PROPERTY])
+        for name, value in verdict_view.numbers(entry) if entry else ():
+            row = column.split(factor=0.72)
+            row.label(text=name)
+            row.label(text=value)
         for line in stored.summary(context.active_object[report.PROPERTY]):
             lines.draw(column, context, line, indent=INDENT)
 
 
-class _ThingsPanel(_Panel):
-    """What is made of a tiling."""
+class _CheckPanel(_Panel):
+    """What is seen of the active UV map, and what of the mesh."""
 
-    bl_label = "Things"
+    bl_label = "Check"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        column = self.layout.column(align=True)
+        if context.mode == "OBJECT":
+            column.label(text="Heat map of the active UV map")
+            column.prop(context.window_manager, overlay.HEAT, expand=True)
+            column.operator(tools.HOLOMORPH_OT_heat.bl_idname, text="Store as Face Attributes")
+        column = self.layout.column(align=True)
+        column.operator(elements.HOLOMORPH_OT_select_bad.bl_idname)
+        column.operator(elements.HOLOMORPH_OT_select_stretched.bl_idname)
+        column.operator(elements.HOLOMORPH_OT_repair.bl_idname)
+
+
+class _ThingsPanel(_Panel):
+    """What is made of a map."""
+
+    bl_label = "From This Map"
     bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
@@ -90,7 +97,8 @@ class _ThingsPanel(_Panel):
         column.operator(geometry.HOLOMORPH_OT_lines.bl_idname, icon="MOD_WIREFRAME")
         column.operator(geometry.HOLOMORPH_OT_cells.bl_idname, icon="MESH_GRID")
         column.operator(relief.HOLOMORPH_OT_relief.bl_idname, icon="RNDCURVE")
-        self.layout.operator(bake.HOLOMORPH_OT_bake.bl_idname, icon="RENDER_STILL")
+        column.operator(bake.HOLOMORPH_OT_bake.bl_idname, icon="RENDER_STILL")
+        column.operator(lod.HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
 
 
 class _ToolsPanel(_Panel):
@@ -105,55 +113,12 @@ class _ToolsPanel(_Panel):
         row.operator(texel_operators.HOLOMORPH_OT_texels_get.bl_idname, text="Get")
         row.operator(texel_operators.HOLOMORPH_OT_texels_set.bl_idname, text="Set")
         column = self.layout.column(align=True)
-        column.operator(elements.HOLOMORPH_OT_select_bad.bl_idname)
-        column.operator(elements.HOLOMORPH_OT_select_stretched.bl_idname)
-        column.operator(elements.HOLOMORPH_OT_repair.bl_idname)
         column.operator(tools.HOLOMORPH_OT_remove_maps.bl_idname)
         column.operator(tools.HOLOMORPH_OT_assets.bl_idname)
         if self.bl_space_type == "VIEW_3D":
             column = self.layout.column(align=True)
             column.operator(compare.HOLOMORPH_OT_compare.bl_idname)
             column.operator(compare.HOLOMORPH_OT_carry.bl_idname)
-
-
-def _draw_choices(layout):
-    """The button again, for what the selected vertices are to be."""
-    column = layout.column(align=True)
-    column.label(text="Selected vertices as")
-    for use, text in (("POLES", "Poles"), ("RECTANGLE", "Corners of a Rectangle")):
-        column.operator(HOLOMORPH_OT_maps.bl_idname, text=text).use_selection = use
-
-
-def _draw_modifiers(layout, context, obj):
-    """The button again, for an object whose modifiers change its shape."""
-    from ..scene import targets
-
-    if targets.first_modifier(obj):
-        if not len(obj.data.polygons):
-            lines.draw(layout, context, "Its faces come only from modifiers", "INFO")
-        layout.operator(HOLOMORPH_OT_maps.bl_idname, text="Map with Modifiers", icon="MODIFIER").modifiers = True
-
-
-def _draw_overlays(layout, context):
-    column = layout.column(align=True)
-    column.label(text="Heat map of the active UV map")
-    column.prop(context.window_manager, overlay.HEAT, expand=True)
-    column.operator(tools.HOLOMORPH_OT_heat.bl_idname, text="Store as Face Attributes")
-    row = layout.row(align=True)
-    row.prop(context.window_manager, overlay.MARKS, toggle=True)
-    row.operator(drag.HOLOMORPH_OT_drag_poles.bl_idname)
-
-
-def _draw_result(layout, context, obj):
-    from ..results import report, restore, stored
-    from . import verdict_view
-
-    if restore.is_possible(obj):
-        layout.operator(tools.HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
-    text = obj.get(report.PROPERTY)
-    if text:
-        is_edited = stored.is_edited(stored.parsed(text), obj.data)
-        verdict_view.draw(layout, context, text, HOLOMORPH_OT_tile.bl_idname, is_edited)
 
 
 def _draw_menu_entry(self, _context):
@@ -167,13 +132,15 @@ def _draw_menu_entry(self, _context):
 def _panels(name, space):
     """The panels of one kind of editor."""
 
-    def made(base, end=""):
-        settings = {"bl_space_type": space} | ({"bl_parent_id": name} if end else {})
+    def made(base, end="", parent=""):
+        settings = {"bl_space_type": space} | ({"bl_parent_id": parent} if parent else {})
         return type(name + end, (base, bpy.types.Panel), settings)
 
     return [
-        made(_HolomorphPanel),
-        made(_DetailsPanel, "_details"),
+        made(_MapPanel),
+        made(_AdvancedPanel, "_advanced", name),
+        made(_DetailsPanel, "_details", name),
+        made(_CheckPanel, "_check"),
         made(_ThingsPanel, "_things"),
         made(_ToolsPanel, "_tools"),
     ]

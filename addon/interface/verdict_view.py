@@ -1,59 +1,68 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The verdict on an object's map in a panel: words, what would help, plain numbers."""
+"""The verdict on an object's map in a panel: whether it is ready to tile and to bake, what is seen, what would help."""
 
 import functools
 import math
+import re
 from typing import NamedTuple
 
-from ..native import holomorph
 from ..results import stored, symmetric
 from . import lines
 
-SYMMETRIC = "uv.holomorphic_make_symmetric"
-SHOWN_TURNS = "This texture shows its turns: seams are seen where the map turns"
+SYMMETRIC, TILE, BAKE = "uv.holomorphic_make_symmetric", "uv.holomorphic_tile", "object.holomorphic_bake"
+SHOWN_TURNS = "The texture shows where it turns"
 EDITED = "Before the last edit:"
-ICONS = {"good": "CHECKMARK", "fair": "NONE", "poor": "ERROR", "unusable": "ERROR"}
+TILES_OVERLAP = "Tiles lie on top of each other"
+UNSAID = re.compile(r"\b(poles?|cones?|turns)\b")  # what the row of the points and that of the turns show
+HEADINGS = {"verdict": "tile", "bake": "bake"}
 
 
-def draw(layout, context, text, tile_operator, is_edited=False):
-    """Out of a stored report; the operator is offered where poles might help.
+def draw(layout, context, text, is_edited=False):
+    """Out of a stored report.
 
-    is_edited : whether the mesh is another than then: the verdict has no tick
+    is_edited : whether the mesh is another than then: nothing has a tick
     """
     read_of = read(text)
     if read_of is None:
         return
-    box = layout.box().column(align=True)
-    if read_of.whole:
-        lines.draw(box, context, read_of.whole)
+    column = layout.column(align=True)
     if is_edited:
-        lines.draw(box, context, EDITED, "INFO")
-    for level, sentence in zip(read_of.levels, read_of.told):
-        lines.draw(box, context, sentence, "NONE" if is_edited else ICONS[level])
+        lines.draw(column, context, EDITED, "INFO")
+    for judged in read_of.judged:
+        icon = "NONE" if is_edited else judged.icon
+        lines.draw(column, context, judged.heading, icon)
+        for sentence in judged.sentences:
+            lines.draw(column, context, sentence, "BLANK1")
+        if judged.purpose == "bake" and read_of.is_tiled:
+            column.operator(BAKE, icon="RENDER_STILL")
+        column.separator()
     if symmetric.shown_turns(text):
-        lines.draw(box, context, SHOWN_TURNS, "INFO")
-        box.operator(SYMMETRIC)
+        lines.draw(column, context, SHOWN_TURNS, "INFO")
+        column.operator(SYMMETRIC)
     if read_of.places:
-        lines.draw(box, context, read_of.places)
-        pressed = box.operator(tile_operator, text="Try Poles There")
+        lines.draw(column, context, read_of.places, "BLANK1")
+        pressed = column.operator(TILE, text="Try Points There")
         pressed.poles, pressed.is_trial = "COARSE", True
-    for name, value in read_of.numbers:
-        row = box.split(factor=0.72)
-        row.label(text=name)
-        row.label(text=value)
+
+
+class Judged(NamedTuple):
+    """One of the verdicts. icon : of its heading"""
+
+    purpose: str
+    heading: str
+    sentences: tuple
+    icon: str
 
 
 class Read(NamedTuple):
     """What a panel shows of a stored report.
 
-    levels, told : of the verdicts; places : sentence about coarse ones; numbers : see there
+    places : sentence about coarse ones; is_tiled : whether tiles of parts lie on top of each other
     """
 
-    whole: str
-    levels: list
-    told: list
+    judged: list
     places: str
-    numbers: list
+    is_tiled: bool
 
 
 @functools.lru_cache(maxsize=16)
@@ -62,10 +71,18 @@ def read(text):
     entry = stored.parsed(text)
     if not entry:
         return None
-    places = entry.get("coarse_places")
-    coarse = stored.coarse_sentence(places) if places else ""
-    levels, told = [one.level for one in stored.verdicts(entry)], holomorph.quality.verdicts.told(entry)
-    return Read(stored.whole(entry), levels, told, coarse, numbers(entry))
+    is_tiled, places = bool(stored.tilings(text)), entry.get("coarse_places")
+    judged = [_judged(name, one, entry, is_tiled) for name, one in zip(HEADINGS, stored.verdicts(entry))]
+    return Read(judged, stored.coarse_sentence(places) if places else "", is_tiled)
+
+
+def _judged(name, verdict, entry, is_tiled):
+    if name == "bake" and is_tiled:
+        return Judged(name, "Not ready to bake", (TILES_OVERLAP,), "INFO")
+    said = ", ".join(words for words in verdict.sentence.split(", ") if not UNSAID.search(words))
+    whole = stored.whole(entry) if name == "verdict" else ""
+    heading = f"{'Ready' if verdict.is_fit else 'Not ready'} to {HEADINGS[name]}"
+    return Judged(name, heading, tuple(filter(None, (said, whole))), "CHECKMARK" if verdict.is_fit else "ERROR")
 
 
 def numbers(entry):

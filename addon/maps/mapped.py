@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The maps of solves: the main one, of tilings or of forms part by part, and those of single forms. No bpy here."""
 
+import numbers
 from dataclasses import astuple, dataclass, replace
 from functools import cached_property
 
@@ -10,9 +11,8 @@ from .. import native
 from ..native import holomorph
 from ..scene.uv_maps import MAIN_MAP
 
-# What the main map is. TILING: tilings alone, so that parts without one have no map.
-AUTOMATIC, SEAMLESS, BALANCED, ISLANDS, TILING = "AUTOMATIC", "SEAMLESS", "BALANCED", "ISLANDS", "TILING"
-MAINS = {AUTOMATIC: "automatic", SEAMLESS: "seamless", TILING: "seamless"}  # as `holomorph.automatic_maps` names them
+AUTOMATIC, SEAMLESS, BALANCED, ISLANDS = "AUTOMATIC", "SEAMLESS", "BALANCED", "ISLANDS"  # what the main map is
+MAINS = {AUTOMATIC: "automatic", SEAMLESS: "seamless"}  # as `holomorph.automatic_maps` names them
 SQUARES_LIMIT = 10_000
 
 
@@ -38,6 +38,7 @@ class TileOptions:
     marked: bytes | None = None  # of the vertices of edges that are lines besides those found, (n, 2) int64
     cones: tuple = ()  # (vertex, angle in full turns) where they are chosen; none are searched for
     moved: tuple = ()  # (index of a pole in its part's tiling, vertex to which it was dragged)
+    points: tuple = ()  # vertices of the poles that are there then; chosen themselves where the indices are of others
 
     @property
     def is_chosen(self):
@@ -68,7 +69,7 @@ class MapOptions:
     def package_main(self):
         """The main map that the package is asked for: another than "balanced" where nothing else is chosen."""
         is_mixed = any(amount != 1 for amount in self.amounts) or any(phase != 0 for phase in self.phases)
-        is_plain = self.density == 1 and self.rotation == 0 and not is_mixed
+        is_plain = self.density == 1 and not is_mixed
         return MAINS.get(self.main, "balanced") if is_plain or self.main != AUTOMATIC else "balanced"
 
     @cached_property
@@ -121,6 +122,12 @@ class MappedObject:
     def tiled(self):
         """The parts whose main map is a tiling, or has tilings of pieces."""
         return [part for part in self.parts if part.map and part.map.is_tiled]
+
+    @property
+    def is_astray(self):
+        """Whether other poles were moved than those that were dragged: with other dials, others are placed."""
+        poles = [part.vertices(part.tiling.poles) for part in self.tiled if part.tiling]
+        return not set(self.options.tiling.points) <= set(np.concatenate([*poles, ()]).tolist())
 
     @property
     def part_maps(self):
@@ -206,13 +213,20 @@ def _mapped_together(solved, options, progress):
     if not all((asked, together) in one.maps for one, asked in zip(solved, together)):
         for one, asked, kept in zip(solved, together, _made(solved, options, progress)):
             one.keep_maps((asked, together), kept)
-    return [_object(one, own, *one.maps[asked, together]) for one, own, asked in zip(solved, options, together)]
+    made = [_object(one, own, *one.maps[asked, together]) for one, own, asked in zip(solved, options, together)]
+    if not any(one.is_astray for one in made):
+        return made
+    anew = [_with_chosen_poles(own) if one.is_astray else own for one, own in zip(made, options)]
+    return _mapped_together(solved, anew, progress)
+
+
+def _with_chosen_poles(options):
+    return replace(options, tiling=replace(options.tiling, poles=options.tiling.points, moved=(), points=()))
 
 
 def _asked(solved, options):
     """What decides how the parts of a solve are mapped, before they are laid out."""
-    is_tiling = options.main == TILING
-    return solved.number, options.package_main, is_tiling, options.tiling.made, options.amounts, options.phases
+    return solved.number, options.package_main, options.tiling.made, options.amounts, options.phases
 
 
 def _object(solved, options, parts, size):
@@ -263,13 +277,24 @@ def _requests(components, options):
         options={name: getattr(wanted, name) for name in ("lattice", "boundary", "turns", "lines")}
         | {"turn": wanted.turn or None},
     )
-    return [asked.of_structure(part) for part in components]
+    return [_with_points(asked.of_structure(part)) for part in components]
+
+
+def _with_points(request):
+    """The request for a part: a tiling where points are chosen on it. One with poles does not turn."""
+    options = request.options
+    has_cones, is_open = bool(options["cones"]), isinstance(request.poles, (str, numbers.Real))
+    if request.main == "balanced" or (is_open and not options["moves"] and not has_cones):
+        return request
+    if has_cones:
+        return replace(request, main="seamless", poles="auto", options={**options, "moves": {}})
+    return replace(request, main="seamless", options={**options, "turns": 1})
 
 
 def _parts(components, requests, options, made):
     """The `MappedPart`s of one object."""
     reasons = [native.sentence(one) if isinstance(one, Exception) else "" for one in made]
-    if options.main == TILING and options.tiling.is_chosen and all(reasons):
+    if options.main == SEAMLESS and options.tiling.is_chosen and all(reasons):
         return [MappedPart(component, skipped=reason) for component, reason in zip(components, reasons)]
     return [_part(*each) for each in zip(components, requests, made, reasons)]
 

@@ -8,22 +8,21 @@ import bpy
 from bpy.props import StringProperty
 
 from ..overlays import overlay
-from .mixins import TIMER_SECONDS, Explained
-from .tile_properties import draw_tiling
+from ..scene import stored_dials
+from .mixins import TIMER_SECONDS, Explained, OnMeshes
 
 NAVIGATION = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "NDOF_MOTION"}
 NAVIGATION |= {f"NUMPAD_{key}" for key in (*range(10), "PERIOD", "PLUS", "MINUS")}
 KEEP = {"RET", "NUMPAD_ENTER", "SPACE"}
 GIVE_UP = {"ESC", "RIGHTMOUSE"}
-HELP = "Drag the poles, the orange dots, or the cones, the blue ones   (Enter: keep, ESC: undo all)"
+HELP = "Drag a dot   (Enter: keep, ESC: undo all)"
 
 
 class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
-    """Drag the poles of the active object's seamless tiling to other places, or the cones of one that turns: the
-    texture follows"""
+    """Pull a dot to where it shows less, and the map follows"""
 
     bl_idname = "uv.holomorphic_drag_poles"
-    bl_label = "Drag Poles"
+    bl_label = "Drag Points"
 
     left_modes = frozenset()  # the poles are shown in object mode alone
     moves: StringProperty(
@@ -39,13 +38,9 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
 
         obj = context.active_object
         text = obj.get(report.PROPERTY) if obj is not None and obj.type == "MESH" else None
-        has_marks = len(stored.cones(text)) if stored.turns(text) != 1 else stored.marks(text)[1].any()
-        if "asked" not in stored.parsed(text) or not has_marks:
-            return "Select an object with poles or cones of Seamless Tiling"
+        if not stored.found(text).points:
+            return "Select an object whose map has points"
         return ""
-
-    def draw(self, context):
-        draw_tiling(self.layout, context.object)
 
     def execute(self, context):
         """Moves the poles at once: for scripts, and the redo panel."""
@@ -60,7 +55,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
 
     def invoke(self, context, _event):
         if context.area is None or context.area.type != "VIEW_3D":
-            return self.refuse("Drag poles in a 3D view")
+            return self.refuse("Drag points in a 3D view")
         from . import surface_pick
         from .drag_session import Session
 
@@ -197,6 +192,17 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         context.area.tag_redraw()
 
 
+class HOLOMORPH_OT_automatic_points(OnMeshes, bpy.types.Operator):
+    """Put all points back where they show least"""
+
+    bl_idname = "uv.holomorphic_automatic_points"
+    bl_label = "Automatic Points"
+
+    def execute(self, context):
+        setattr(getattr(context.active_object, stored_dials.NAME), stored_dials.MOVED, "")
+        return {"FINISHED"}
+
+
 def parsed_moves(text):
     """{pole: vertex} of "0:512 3:77". @throws ValueError"""
     if not re.fullmatch(r"\s*(\d+:\d+(\s+|$))*", text):
@@ -204,4 +210,4 @@ def parsed_moves(text):
     return {int(pole): int(vertex) for pole, vertex in (pair.split(":") for pair in text.split())}
 
 
-register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_drag_poles])
+register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_drag_poles, HOLOMORPH_OT_automatic_points])

@@ -2,19 +2,19 @@
 """A tiling while its poles are dragged: what there was, what comes of a move, and its end. No events in here."""
 
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 
 from .. import native
 from ..maps import mapped
-from ..maps.mapped import TILING, MapOptions
-from ..results import report, stored, write
-from ..scene import targets, uv_maps
+from ..results import points, report, stored, write
+from ..scene import stored_dials, targets, uv_maps
 from ..solving import jobs
 from ..writing import transaction
 from . import request
 
-AGAIN = "run Seamless Tiling again"
+AGAIN = "press Update Map"
 
 
 class Session:
@@ -30,27 +30,31 @@ class Session:
         other = stored.parsed(text).get("scale_of")
         if other:
             raise ValueError(f"{obj.name}: drag the poles on {other}: its mesh was tiled in the scale of that object")
-        self.target, asked = targets.collect([obj])[0], stored.asked(text)
-        self._map = uv_maps.main_map(obj.data)
-        if asked is None or self.target.refused or self._map not in obj.data.uv_layers:
-            raise ValueError(f"{obj.name}: it has no tiling with poles to drag; {AGAIN}")
-        allowed, lines = request.allowed(asked.pole_group, obj), request.lines(asked.lines, self.target, asked.turns)
-        self._asked, self._are_cones = replace(asked, allowed=allowed, **lines), stored.turns(text) != 1
-        self._write_options = write.options_of(stored.parsed(text)["dials"])
+        dials = request.Values(**stored_dials.of(obj))
+        self.target, self._map = targets.collect([obj], request.choices(dials))[0], uv_maps.main_map(obj.data)
+        if not text or self.target.refused or self._map not in obj.data.uv_layers:
+            raise ValueError(f"{obj.name}: it has no map with points to drag; {AGAIN}")
+        if stored.is_behind(stored.parsed(text), obj):
+            raise ValueError(f"{obj.name}: its dials were changed since its map was made; {AGAIN}")
+        self._options, self._write_options = request.Run(dials, [self.target], request.own_texture(dials)[0]).only
+        self._asked = self._options.tiling
+        if stored.asked(text):  # tiles may have the size that they have on other objects
+            self._asked = replace(self._asked, size=stored.asked(text).size)
+        self._are_cones, self._earlier = len(stored.cones(text)) > 0, request.moved_points(dials, self.target)
+        self._count = points.asked_count(dials)
         self._task = targets.tasks([self.target])[0]
         self.mapped = None
         self.mapped = self._first = self.made({})
-        if not self.mapped.tiled:
+        self._asked = self._first.options.tiling
+        if not self._tiled(self.mapped):
             reasons = [part.skipped or part.not_seamless for part in self.mapped.parts]
             raise ValueError(f"{obj.name}: {'; '.join(filter(None, reasons))}")
         vertices, is_pole = stored.marks(text)
         if not np.array_equal(self.poles, stored.cones(text) if self._are_cones else vertices[is_pole]):
             raise ValueError(f"{obj.name}: its mesh has changed since it was tiled; {AGAIN}")
         self._uv, self._is_shown = uv_maps.read_map(obj.data, self._map), False
-        self._parts = [part.component.surface.vertex_index for part in self.mapped.tiled]
-        if any(part.tiling.lines != "none" for part in self.mapped.tiled if part.tiling):
-            raise ValueError(f"{obj.name}: its rows lie at edges, which hold its cones: set Rows to Anywhere first")
-        self._boundary = np.concatenate([self._boundary_of(part) for part in self.mapped.tiled])
+        self._parts = [part.component.surface.vertex_index for part in self._tiled(self.mapped)]
+        self._boundary = np.concatenate([self._boundary_of(part) for part in self._tiled(self.mapped)])
         self.allowed = None if self._asked.allowed is None else np.frombuffer(self._asked.allowed, bool)
 
     @property
@@ -58,18 +62,23 @@ class Session:
         """(n,) vertices of the object, where they are now; or the cones of a map that turns."""
         if self._are_cones and self.mapped is not self._first:
             return np.array([vertex for vertex, _ in self.mapped.options.tiling.cones])
-        return np.concatenate([part.vertices(own) for part, own in zip(self.mapped.tiled, self._own)])
+        return np.concatenate([part.vertices(own) for part, own in zip(self._tiled(self.mapped), self._own)])
+
+    @staticmethod
+    def _tiled(made):
+        """The parts of a `mapped.MappedObject` with a tiling of the whole of them."""
+        return [part for part in made.tiled if part.tiling]
 
     @property
     def _own(self):
         """The poles of each part with a tiling, or the cones, as the part counts vertices."""
         name = "cones" if self._are_cones else "poles"
-        return [getattr(part.tiling, name) for part in self._first.tiled]
+        return [getattr(part.tiling, name) for part in self._tiled(self._first)]
 
     @property
     def zeros(self):
         """(n,) vertices of the object at the branch points."""
-        return np.concatenate([part.vertices(part.tiling.zeros[0]) for part in self.mapped.tiled])
+        return np.concatenate([part.vertices(part.tiling.zeros[0]) for part in self._tiled(self.mapped)])
 
     @staticmethod
     def _boundary_of(part):
@@ -101,17 +110,16 @@ class Session:
         """A `jobs.Job` that makes the tiling with poles at other vertices, {pole: vertex}; what was dragged in an
         earlier session stays there."""
         asked = replace(self._asked, **self._moved(moves)) if moves else self._asked
-        options = MapOptions(forms=0, main=TILING, tiling=asked)
-        return jobs.Job([self._task], then=mapped.follow([options]))
+        return jobs.Job([self._task], then=mapped.follow([replace(self._options, tiling=asked)]))
 
     def _moved(self, moves):
         """The fields of `TileOptions` with these moves."""
         if not self._are_cones:
-            return {"moved": self._earlier_and(moves)}
-        places = np.concatenate([part.vertices(own) for part, own in zip(self._first.tiled, self._own)])
+            return {"moved": self._earlier_and(moves), "points": ()}
+        places = np.concatenate([part.vertices(own) for part, own in zip(self._tiled(self._first), self._own)])
         places[list(moves)] = list(moves.values())
-        angles = np.concatenate([part.tiling.cone_angles for part in self._first.tiled])
-        return {"cones": tuple(zip(places.tolist(), angles.tolist()))}
+        angles = np.concatenate([part.tiling.cone_angles for part in self._tiled(self._first)])
+        return {"cones": tuple(zip(places.tolist(), angles.tolist())), "lines": "automatic", "marked": None}
 
     def _earlier_and(self, moves):
         """((index in its part, vertex), ...): an earlier move of a pole gives way to a new one."""
@@ -138,7 +146,7 @@ class Session:
         result = job.error or job.results[0]
         if isinstance(result, native.refusals()):
             raise ValueError(native.sentence(result))
-        before = [part.component for part in self.mapped.tiled] if self.mapped else []
+        before = [part.component for part in self._tiled(self.mapped)] if self.mapped else []
         for part in result.parts:
             if part.skipped and any(part.component is component for component in before):
                 raise ValueError(part.skipped)
@@ -159,5 +167,21 @@ class Session:
     def finish(self, context):
         """Writes all that belongs to a tiling, and returns the `report.Outcome`."""
         self.restore()  # the step puts back what it finds
+        options = self._write_options
+        if self.mapped is not self._first:
+            options = replace(options, stored=options.stored | {stored_dials.MOVED: self._points.text})
         with transaction.one_step(context, targets.objects([self.target])) as step:
-            return write.write(step, [self.target], [self.mapped], self._write_options, time_has_passed=True)
+            return write.write(step, [self.target], [self.mapped], options, time_has_passed=True)
+
+    @property
+    def _points(self):
+        """The `points.Points` of the map as it is now; those on maps with other turns stay."""
+        asked = self.mapped.options.tiling
+        earlier = self._earlier or points.Points(len(self.target.find().data.vertices), self._count)
+        if self._are_cones:
+            return replace(earlier, cones=asked.cones)
+        base = asked.poles if isinstance(asked.poles, tuple) else ()
+        moved = {*base, *(vertex for _, vertex in asked.moved)}
+        now = [part.vertices(part.tiling.poles).tolist() for part in self._tiled(self.mapped)]
+        poles = [own for own, part in zip(now, self._parts) if not moved.isdisjoint(part.tolist())]
+        return replace(earlier, poles=tuple(chain(*poles)), base=base, moves=asked.moved)

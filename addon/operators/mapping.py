@@ -1,43 +1,43 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that make maps: the button, islands, seamless tilings."""
+"""The operators that make maps: the button, islands, seamless tilings. They have the same dials."""
 
 import bpy
-from bpy.props import FloatProperty
 
 from .. import native
+from ..scene import stored_dials
+from . import dials_view
 from .mixins import MODAL_FACES, MODAL_TILED_FACES, OnMeshes, WorkOperator
-from .properties import ABOUT, HARD_EDGE, OWN_TEXTURES, MapProperties, hard_edges_property, main_property
-from .tile_properties import TileProperties
+from .properties import HARD_EDGE, Dials, OfOneRun
 
 
-class _MapsOperator(OnMeshes, WorkOperator):
-    """What the operators that make maps share."""
+class _MapsOperator(Dials, OfOneRun, OnMeshes, WorkOperator):
+    """What the operators that make maps share. A button starts with the dials of the active object, a script says what
+    is not automatic; a run writes them back to all that it maps."""
+
+    asked = {}
+
+    def invoke(self, context, event):
+        from ..scene import gathering
+
+        self._start_with(stored_dials.of(gathering.mesh_objects(context)[0]) | self.asked)
+        return super().invoke(context, event)
 
     def prepare(self, context):
         from ..scene import gathering, targets
         from . import request
 
-        objects, choices = gathering.mesh_objects(context), request.choices(self)
-        self._own = self._own_texture()
-        self._run = request.Run(self, targets.collect(objects, choices), self._own, self.is_trial)
+        self._start_with(self.asked)
+        objects = gathering.mesh_objects(context)
+        self._own, self._why_not_own = request.own_texture(self)
+        found = targets.collect(objects, request.choices(self))
+        self._run = request.Run(self, found, self._own, self.is_trial)
         self.is_trial = False  # what the redo panel asks for later is written in any case
 
-    def _own_texture(self):
-        """The `user_texture.Own` that was chosen. If there is none, the redo panel says why; it must not vanish, so
-        that the checker is shown.
-        """
-        self.found = ""
-        if self.texture not in OWN_TEXTURES:
-            return None
-        from ..materials import user_texture
-
-        try:
-            chosen = user_texture.chosen(self)
-        except ValueError as error:
-            self.found = native.sentence(error)
-            return None
-        self.found = chosen.text
-        return chosen
+    def _start_with(self, values):
+        """Takes over these dials, but for those that the caller has set. What is set now, the redo panel keeps."""
+        for name, value in values.items():
+            if name in Dials.__annotations__ and not self.properties.is_property_set(name):
+                setattr(self, name, value)
 
     def make_work(self, progress):
         return self._run.job(progress)
@@ -45,53 +45,56 @@ class _MapsOperator(OnMeshes, WorkOperator):
     def waiting_faces(self):
         from ..solving import jobs
 
-        waiting = [task for task in self._run.tasks if self.may_tile() or jobs.KEPT.get(task.key) is None]
+        waiting = [task for task in self._run.tasks if self._may_tile or jobs.KEPT.get(task.key) is None]
         return sum(task.polygons.face_count for task in waiting)
 
     def modal_faces(self):
-        return MODAL_TILED_FACES if self.may_tile() else MODAL_FACES
+        return MODAL_TILED_FACES if self._may_tile else MODAL_FACES
+
+    @property
+    def _may_tile(self):
+        return self.main != "BALANCED"
 
     def written_objects(self):
         return self._run.objects
 
     def finish(self, step, work, time_has_passed):
         outcome = self._run.write(step, work, time_has_passed)
-        self.form_count, self.tile_count = outcome.forms, outcome.tiles
-        if self._own is None and self.found:
-            outcome.problems.append(self.found)
+        outcome.problems += filter(None, [self._why_not_own])
         self.show(step.context, outcome, self.checker, self._own is not None)
         return self.tell(outcome)
 
+    def draw(self, _context):
+        dials_view.draw(self.layout, self)
 
-class HOLOMORPH_OT_maps(MapProperties, _MapsOperator, bpy.types.Operator):
-    """Compute conformal UV maps for the selected meshes, whatever their shape; in edit mode for the selected faces.
-    Maps named "Holomorphic" of an earlier run are replaced, other maps are kept"""
+
+def press(obj):
+    """Does what the button does, where this object is active, also without a window: makes the map of its dials."""
+    dials = {name: value for name, value in stored_dials.of(obj).items() if name in Dials.__annotations__}
+    return bpy.ops.uv.holomorphic_maps("INVOKE_DEFAULT", **dials)
+
+
+class HOLOMORPH_OT_maps(_MapsOperator, bpy.types.Operator):
+    """Lay the texture over the selected objects"""
 
     bl_idname = "uv.holomorphic_maps"
-    bl_label = "Holomorphic UV Maps"
-    bl_options = {"REGISTER", "UNDO", "PRESET"}
+    bl_label = "Make Map"
 
 
-class HOLOMORPH_OT_islands(MapProperties, _MapsOperator, bpy.types.Operator):
-    """Cut the selected meshes along their hard edges and seams, and flatten each island: for meshes of few or long thin
-    faces, which no seamless map can fit"""
+class HOLOMORPH_OT_islands(_MapsOperator, bpy.types.Operator):
+    """Lay flat pieces side by side, without overlap, cut at hard edges and at your seams"""
 
     bl_idname = "uv.holomorphic_islands"
-    bl_label = "Islands by Hard Edges"
-
-    # Properties of its own, so that the maps operator does not remember them.
-    main: main_property("ISLANDS")
-    hard_edges: hard_edges_property(HARD_EDGE)
-    most_stretch: FloatProperty(name="Most Stretch", description=ABOUT["most_stretch"], min=0.0, soft_max=10.0)
+    bl_label = "Islands for Baking"
+    asked = {"main": "ISLANDS", "hard_edges": HARD_EDGE}
 
 
-class HOLOMORPH_OT_tile(TileProperties, _MapsOperator, bpy.types.Operator):
-    """Make a UV map on which a texture that tiles shows no seam, keeps its angles and has about the same size
-    everywhere. Maps named "Holomorphic" of an earlier run are replaced, other maps are kept"""
+class HOLOMORPH_OT_tile(_MapsOperator, bpy.types.Operator):
+    """Lay a texture over the selected objects that breaks nowhere, wherever whole tiles fit"""
 
     bl_idname = "uv.holomorphic_tile"
     bl_label = "Seamless Tiling"
-    bl_options = {"REGISTER", "UNDO", "PRESET"}
+    asked = {"main": "SEAMLESS"}
 
 
 @bpy.app.handlers.persistent

@@ -72,6 +72,14 @@ class Explained:
         return {"FINISHED"}
 
 
+def redraw_sidebars(context):
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            for region in area.regions:
+                if region.type == "UI":
+                    region.tag_redraw()
+
+
 def _guarded(method):
     """The method, with as many arguments, for Blender counts them; after an error it refuses in one sentence."""
 
@@ -151,6 +159,8 @@ class WorkOperator(Explained):
     finish(step, work, time_has_passed) : writes the results, in a `transaction.Step`; the set that an operator returns
     """
 
+    running = None  # the `jobs.Work` of the one that works in the background
+
     def modal_faces(self):
         return MODAL_FACES
 
@@ -179,6 +189,7 @@ class WorkOperator(Explained):
         self._timer = manager.event_timer_add(TIMER_SECONDS, window=context.window)
         manager.progress_begin(0.0, 1.0)
         manager.modal_handler_add(self)
+        WorkOperator.running = self._work
         self._work.start()
         return {"RUNNING_MODAL"}
 
@@ -252,8 +263,11 @@ class WorkOperator(Explained):
         percent = round(100 * self._work.watch.fraction)
         context.workspace.status_text_set(f"Holomorph: {percent} % {self._work.watch.stage}   (ESC cancels)")
         context.window_manager.progress_update(self._work.watch.fraction)
+        redraw_sidebars(context)
 
     def _end_modal(self, context):
+        WorkOperator.running = None
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
         context.workspace.status_text_set(None)
+        redraw_sidebars(context)

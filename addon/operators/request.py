@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is asked for by the properties of an operator, or by the headless command under the same names, and its run."""
+"""What is asked for by dials: of an operator, of an object, or of the headless command; and its run."""
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 
+from .. import native
 from ..maps import mapped
-from ..maps.mapped import TILING, MapOptions, TileOptions
-from ..materials import material, textures
+from ..maps.mapped import BALANCED, ISLANDS, SEAMLESS, MapOptions, TileOptions
+from ..materials import material, textures, user_texture
 from ..materials.user_texture import AUTOMATIC, IMAGE, MATERIAL
-from ..results import advice, report, stored, symmetric, write
+from ..results import advice, points, report, stored, symmetric, write
 from ..results.write import WriteOptions
-from ..scene import gathering, mesh_io, targets
+from ..scene import gathering, mesh_io, stored_dials, targets
 from ..solving import jobs
 from ..solving.jobs import Choices
 
@@ -40,26 +42,32 @@ QUARTERED = ("square", ((1.0, 0.0), (0.0, 1.0)))
 
 
 class Run:
-    """What properties ask for of these `targets.Target`s: a request, the solves, the maps, writing, the report.
+    """What dials ask for of these `targets.Target`s: a request, the solves, the maps, writing, the report.
     @throws ValueError there is nothing of what is asked for on one of them
 
+    dials : an object with the dials: an operator, the options of the command, or a `Values`
     own : the `user_texture.Own` that is their texture, None for one of ours
     is_trial : whether maps that cost an eye no less than those of before are not written
     """
 
-    def __init__(self, properties, found, own=None, is_trial=False):
-        self.tasks, self._found, self._is_equal = targets.tasks(found), found, properties.equal
+    def __init__(self, dials, found, own=None, is_trial=False):
+        self.tasks, self._found, self._is_equal = targets.tasks(found), found, dials.equal
         self._is_trial = is_trial
         own = own and symmetric.as_before(own, self.objects)
-        options = _tile_options if properties.is_tiling else _map_options
-        self._options = [options(properties, target, own) for target in found if not target.refused]
-        self._write_options = _write_options(properties, own)
+        self._options = [_options(dials, target, own) for target in found if not target.refused]
+        self._write_options = _write_options(dials, own)
         turns = {one.tiling.turns for one in self._options}
         self._notes = [_why_seams(self._write_options.texture, own, k) for k in turns]
 
     def job(self, progress=None):
         """The `jobs.Job` that solves and maps."""
         return jobs.Job(self.tasks, progress, mapped.follow(self._options, self._is_equal))
+
+    @property
+    def only(self):
+        """(`mapped.MapOptions`, `write.WriteOptions`) of a run of one object."""
+        (options,) = self._options
+        return options, self._write_options
 
     @property
     def objects(self):
@@ -76,86 +84,110 @@ class Run:
         return outcome
 
 
-def choices(properties):
+class Values(SimpleNamespace):
+    """The dials of an object, as a run takes them where nothing is selected for it."""
+
+    use_selection, residues = "NONE", ""
+
+
+def choices(dials):
     """The `jobs.Choices`. @throws ValueError residues that are not numbers"""
-    if properties.is_tiling:
-        is_selection_taken = properties.poles == "SELECTED" or properties.direction == "EDGES"
-        return Choices(faces=jobs.WHOLE if is_selection_taken else jobs.SELECTED, modifiers=properties.modifiers)
-    are_islands, use = properties.main == "ISLANDS", properties.use_selection
+    are_islands, use = dials.main == ISLANDS, "NONE" if dials.main == SEAMLESS else dials.use_selection
+    is_taken = not are_islands and (dials.poles == "SELECTED" or dials.direction == "EDGES")
+    faces = jobs.SELECTED if dials.main == SEAMLESS else FACES.get(use, jobs.WHOLE)
     return Choices(
-        use=jobs.NONE if use == "FACES" else use,
-        faces=FACES.get(use, jobs.WHOLE),
-        residues=jobs.numbers(properties.residues),
-        cut_at_seams=properties.cut_at_seams or are_islands,
+        use=jobs.NONE if use == "FACES" or is_taken else use,
+        faces=jobs.WHOLE if is_taken else faces,
+        residues=jobs.numbers(dials.residues),
+        cut_at_seams=dials.main != SEAMLESS and (dials.cut_at_seams or are_islands),
         are_islands=are_islands,
-        solver=properties.solver,
-        modifiers=properties.modifiers,
-        hard_edges=math.degrees(properties.hard_edges) if are_islands else 0.0,
-        most_stretch=properties.most_stretch if are_islands else 0.0,
+        solver=dials.solver,
+        modifiers=dials.modifiers,
+        hard_edges=math.degrees(dials.hard_edges) if are_islands else 0.0,
+        most_stretch=dials.most_stretch if are_islands else 0.0,
     )
 
 
-def _map_options(properties, target, own):
-    """The `mapped.MapOptions` for a `targets.Target`."""
-    lattice = {} if own is None else {"lattice": own.lattice}
-    tiling = TileOptions(density=_density(properties.size, 1), evenness=properties.evenness, **lattice)
-    return MapOptions(
-        properties.forms,
-        properties.density,
-        properties.rotation,
-        tuple(properties.amounts),
-        tuple(properties.phases),
-        properties.margin,
-        properties.main,
-        tiling=_turned(properties, target, own, tiling),
-    )
+def own_texture(dials):
+    """(The `user_texture.Own` that is chosen, or None; why there is none, though one was asked for)."""
+    try:
+        return user_texture.chosen(dials), ""
+    except ValueError as error:
+        return None, native.sentence(error)
 
 
-def _tile_options(properties, target, own):
+def _options(dials, target, own):
     """The `mapped.MapOptions` for a `targets.Target` with its selection."""
-    obj = target.find()
-    if target.makes_object and _are_on_the_mesh(properties):
-        raise ValueError(f"{obj.name}: select poles and edges on the mesh itself, not on the result of its modifiers")
-    lattice = "square" if properties.lattice == AUTOMATIC else properties.lattice
-    lattice = lattice if own is None else own.lattice
-    quarters = properties.quarters if lattice in QUARTERED else 0
-    tiling = TileOptions(
-        tiles=0.0 if properties.size else float(properties.tiles),
-        density=_density(properties.size, properties.repeats),
-        poles=_poles(properties, obj),
-        lattice=lattice,
-        direction=_direction(properties, obj),
-        boundary=properties.boundary,
-        turn=(properties.quarters - quarters) * math.pi / 2 + properties.turn,
-        quarters=quarters,
-        pole_group=properties.pole_group,
-        allowed=allowed(properties.pole_group, obj),
-        evenness=properties.evenness,
+    if dials.main in (BALANCED, ISLANDS):
+        tiling = TileOptions(density=_density(dials.size, 1), evenness=dials.evenness)
+    else:
+        tiling = _turned(dials, target, own, _tiling(dials, target, own))
+    return MapOptions(
+        0 if dials.main == SEAMLESS else dials.forms,
+        dials.density,
+        dials.rotation,
+        tuple(dials.amounts),
+        tuple(dials.phases),
+        dials.margin,
+        dials.main,
+        tiling=tiling,
     )
-    return MapOptions(forms=0, main=TILING, tiling=_turned(properties, target, own, tiling))
 
 
-def _turned(properties, target, own, tiling):
+def _tiling(dials, target, own):
+    """The `mapped.TileOptions` of a map that does not turn."""
+    obj = target.find()
+    if target.makes_object and _are_on_the_mesh(dials):
+        raise ValueError(f"{obj.name}: select poles and edges on the mesh itself, not on the result of its modifiers")
+    lattice = "square" if dials.lattice == AUTOMATIC else dials.lattice
+    lattice = lattice if own is None else own.lattice
+    quarters = dials.quarters if lattice in QUARTERED else 0
+    return TileOptions(
+        tiles=0.0 if dials.size else float(dials.tiles),
+        density=_density(dials.size, dials.repeats),
+        poles=_poles(dials, obj),
+        lattice=lattice,
+        direction=_direction(dials, obj),
+        boundary=dials.boundary,
+        turn=(dials.quarters - quarters) * math.pi / 2 + dials.rotation,
+        quarters=quarters,
+        pole_group=dials.pole_group,
+        allowed=allowed(dials.pole_group, obj),
+        evenness=dials.evenness,
+    )
+
+
+def moved_points(dials, target):
+    """The `points.Points` of an object that count, or None."""
+    if target.makes_object or dials.poles in points.BY_SELECTION:
+        return None
+    obj = target.find()
+    return points.of(stored_dials.of(obj)[stored_dials.MOVED], dials, obj.data)
+
+
+def _turned(dials, target, own, tiling):
     """The `TileOptions` with the turns that are asked for; of the texture, where nothing is chosen that they exclude.
     @throws ValueError something is"""
-    texture = material.CHECKER if properties.texture in (IMAGE, MATERIAL) and own is None else properties.texture
-    turns = TURNS.get(properties.turns) or (material.turns(texture, own) if _follows_texture(properties, target) else 1)
+    texture = material.CHECKER if dials.texture in (IMAGE, MATERIAL) and own is None else dials.texture
+    turns = TURNS.get(dials.turns) or (material.turns(texture, own) if _follows_texture(dials, target) else 1)
+    moved, is_open = moved_points(dials, target), dials.turns not in TURNS
+    shifted = replace(tiling, **moved.asked(1, is_open)) if moved else tiling
     if turns == 1:
-        return tiling
+        return shifted
     lattice, name = TURNED[turns]
     excluded = {
-        "Poles": getattr(properties, "poles", "AUTOMATIC") != "AUTOMATIC" or tiling.allowed is not None,
-        "Lattice": getattr(properties, "lattice", AUTOMATIC) not in (AUTOMATIC, lattice),
+        "Points": dials.poles != "AUTOMATIC" or tiling.allowed is not None,
+        "Pattern": dials.lattice not in (AUTOMATIC, lattice),
         "Rotation": tiling.turn != 0,
-        "Boundary": tiling.boundary == "straight",
+        "Borders": tiling.boundary == "straight",
     }
     chosen = [dial for dial, is_chosen in excluded.items() if is_chosen]
     if not chosen:
-        return replace(
-            tiling, turns=turns, lattice=lattice, boundary="automatic", **lines(ROWS[properties.rows], target, turns)
-        )
-    if properties.turns not in TURNS:
-        return tiling
+        asked = moved.asked(turns, is_open) if moved else {}
+        asked |= {} if "cones" in asked else lines(ROWS[dials.rows], target, turns)
+        return replace(tiling, turns=turns, lattice=lattice, boundary="automatic", **asked)
+    if is_open:
+        return shifted
     raise ValueError(
         f"a map with {name} turns has no choice of {' and '.join(chosen)}: leave it automatic, or set Turns to None"
     )
@@ -169,10 +201,10 @@ def lines(asked, target, turns):
     return {"lines": asked, "marked": target.sharp.astype(np.int64).tobytes() if is_marked else None}
 
 
-def _follows_texture(properties, target):
+def _follows_texture(dials, target):
     """Whether a map turns as its texture does: where it is shown, and that is quick."""
     polygons = target.polygons
-    return properties.checker and len(polygons.corner_vertices) - 2 * polygons.face_count <= QUICK_TURNED
+    return dials.checker and len(polygons.corner_vertices) - 2 * polygons.face_count <= QUICK_TURNED
 
 
 def _why_seams(texture, own, turns):
@@ -198,43 +230,33 @@ def _density(size, repeats):
     return 1 / (size * repeats) ** 2 if size else 0.0
 
 
-def _write_options(properties, own):
-    texture = properties.texture
+def _write_options(dials, own):
+    texture = dials.texture
     if texture in (IMAGE, MATERIAL) and own is None:  # which is not yet chosen
         texture = material.CHECKER
-    shared = {"seams": properties.seams, "size": properties.size, "own": own}
-    if not properties.is_tiling:
-        shown = properties.shown, properties.checker, texture, properties.checker_scale
-        return WriteOptions(*shown, shape=properties.shape, **shared)
-    cells = properties.repeats * (SQUARES if texture == material.CHECKER else material.cells(texture))
-    return WriteOptions(0, properties.checker, texture, cells, empties=properties.empties, **shared)
+    shared = {"seams": dials.seams, "size": dials.size, "own": own, "stored": stored_dials.read(dials)}
+    if dials.main != SEAMLESS:
+        shared |= {"repeats": dials.repeats, "shape": dials.shape}
+        return WriteOptions(dials.shown, dials.checker, texture, dials.checker_scale, **shared)
+    cells = dials.repeats * (SQUARES if texture == material.CHECKER else material.cells(texture))
+    return WriteOptions(0, dials.checker, texture, cells, empties=dials.empties, **shared)
 
 
-def _are_on_the_mesh(properties):
-    return properties.poles in ("SELECTED", "KEPT") or properties.direction == "EDGES" or bool(properties.pole_group)
+def _are_on_the_mesh(dials):
+    return dials.poles == "SELECTED" or dials.direction == "EDGES" or bool(dials.pole_group)
 
 
-def _poles(properties, obj):
-    if properties.poles == "COUNT":
-        return properties.pole_count
-    if properties.poles == "AUTOMATIC":
+def _poles(dials, obj):
+    if dials.poles == "COUNT":
+        return dials.pole_count
+    if dials.poles == "AUTOMATIC":
         return "auto"
-    if properties.poles == "KEPT":
-        return _kept_poles(obj)
-    if properties.poles == "COARSE":
+    if dials.poles == "COARSE":
         return _poles_where_coarse(obj)
     selected = tuple(sorted(mesh_io.selected_vertices(obj.data).tolist()))
     if not selected:
         raise ValueError(f"{obj.name}: select the vertices to use as poles")
     return selected
-
-
-def _kept_poles(obj):
-    vertices, is_pole = stored.marks(obj.get(report.PROPERTY))
-    kept = vertices[is_pole & (vertices < len(obj.data.vertices))]
-    if not len(kept):
-        raise ValueError(f"{obj.name}: it has no poles from an earlier tiling")
-    return tuple(sorted(kept.tolist()))
 
 
 def _poles_where_coarse(obj):
@@ -261,16 +283,16 @@ def allowed(name, obj):
     return mask.tobytes()
 
 
-def _direction(properties, obj):
+def _direction(dials, obj):
     """The direction of `mapped.TileOptions`, in the frame of the polygons: as the object stands in space, without its
     translation."""
-    if properties.direction in ("NONE", "UPRIGHT"):
-        return None if properties.direction == "NONE" else "upright"
+    if dials.direction in ("NONE", "UPRIGHT"):
+        return None if dials.direction == "NONE" else "upright"
     linear = gathering.linear(obj)
-    if properties.direction in AXES:
-        axis = linear[:, AXES.index(properties.direction)]
+    if dials.direction in AXES:
+        axis = linear[:, AXES.index(dials.direction)]
         if not _has_length(axis):
-            raise ValueError(f"{obj.name}: its {properties.direction} axis is scaled to 0: choose another direction")
+            raise ValueError(f"{obj.name}: its {dials.direction} axis is scaled to 0: choose another direction")
         return tuple(axis.tolist())
     edges = mesh_io.edge_vectors(obj.data, mesh_io.marked_edges(obj.data, "select")) @ linear.T
     if not _has_length(edges):

@@ -9,7 +9,6 @@ import bpy
 import numpy as np
 
 from .. import compatibility, native
-from ..maps.mapped import TILING
 from ..materials import material
 from ..native import holomorph
 from ..scene import gathering, mesh_io, uv_maps
@@ -32,7 +31,7 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
     dials = asdict(made.options)
     asked = dials.pop("tiling")
     del asked["allowed"], asked["marked"]  # a vertex group and the marks of the object say them
-    entry = {
+    return {
         "object": obj.name,
         "mesh": obj.data.name,
         "shape_key": mesh_io.shape_key(obj.data),
@@ -42,11 +41,11 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
         "done": bool(made.done),
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
         "dials": dials | (asdict(write_options) if write_options else {}),
+        "asked": asked,
         "seams_added": new_seams,
         **about,
         "seconds": solved.seconds,
     }
-    return entry | ({"asked": asked} if made.options.main == TILING else {})
 
 
 def _repairs(solved):

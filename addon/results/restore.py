@@ -2,7 +2,7 @@
 """What an object showed before its maps were made: its materials, and the active UV maps of its mesh."""
 
 from ..materials import material
-from ..scene import gathering, uv_maps
+from ..scene import gathering, stored_dials, uv_maps
 from . import heat, report, tags
 
 BEFORE = "holomorph_shown_before"  # custom property of a mesh: the UV maps that were active, in editors and for renders
@@ -62,5 +62,6 @@ def remove_maps(step, obj):
     mesh.update()
     for user in (obj, *gathering.others(obj)):
         step.remove(tags.empties_of(user))
+        stored_dials.forget(user)
         found |= user.pop(report.PROPERTY, None) is not None
     return found

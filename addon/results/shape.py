@@ -10,10 +10,11 @@ import math
 
 from ..materials.material import CHECKER
 from ..materials.patterns import TEXTURES
-from ..materials.user_texture import IMAGE, MATERIAL
+from ..materials.user_texture import AUTOMATIC, IMAGE, MATERIAL
 from ..native import holomorph
 
 ABSENT = object()  # the value of a key that is not there
+LATTICES = "square", "brick", "hex", AUTOMATIC
 MOST = 2**31  # elements of a mesh
 
 
@@ -28,6 +29,11 @@ def fits(value, shape):
     if isinstance(shape, type):
         return type(value) is shape
     return shape(value) if callable(shape) else type(value) is type(shape) and value == shape
+
+
+def as_tuple(value):
+    """A list of JSON, and those in it, as tuples; anything else as it is."""
+    return tuple(map(as_tuple, value)) if isinstance(value, list) else value
 
 
 def number(value):
@@ -56,7 +62,7 @@ def row(*shapes):
 def report():
     """The shape of a report on an object that has maps."""
     kinds, pair = holomorph.quality.verdicts, row(number, number)
-    turns, lattice = (1, *kinds.TURNED), (str, row(pair, pair))
+    turns, lattice = (1, *kinds.TURNED), (*LATTICES, row(pair, pair))
     verdict = {"level": kinds.LEVELS, "sentence": words}
     tiling = {
         **dict.fromkeys(("poles", "zeros", "cones"), [count]),
@@ -75,6 +81,7 @@ def report():
     done = {
         **surface,
         "done": True,
+        "area": number,
         "description": str,
         "main_map": main_map,
         "tiling": (ABSENT, tiling),
@@ -99,6 +106,7 @@ def report():
         "texture": (CHECKER, *TEXTURES, IMAGE, MATERIAL),
         **dict.fromkeys(("checker_scale", "size"), number),
         "own": (None, own),
+        "stored": (ABSENT, dict),
     }
     asked = {
         **dict.fromkeys(("tiles", "density", "turn", "evenness"), number),
@@ -111,6 +119,7 @@ def report():
         "turns": turns,
         "cones": [row(count, number)],
         "moved": [row(count, count)],
+        "points": (ABSENT, [count]),
     }
     return {
         "verdict": verdict,

@@ -3,16 +3,19 @@
 
 import functools
 import json
+import math
 from dataclasses import fields
+from typing import NamedTuple
 
 import numpy as np
 
 from ..maps.mapped import TileOptions
 from ..native import holomorph
-from ..scene import mesh_io
+from ..scene import mesh_io, stored_dials
 from . import shape
 
 SUMMARISED = 8  # parts that a panel shows
+MOST_TILES = 10**9  # in a panel
 SHOWN_PERIODS = 4  # likewise, of each part
 
 
@@ -37,16 +40,21 @@ def tilings_of(entry):
     return [tiling for part in parts for tiling in part.get("tilings", [part["tiling"]] if "tiling" in part else [])]
 
 
+def whole_tilings(stored):
+    """The tilings of whole parts, whose points can be dragged."""
+    return [part["tiling"] for part in parsed(stored).get("components", []) if "tiling" in part]
+
+
 def marks(stored):
-    """The marks of all tilings: ((n,) vertices, (n,) whether each is a pole, else a branch point)."""
-    poles = [vertex for tiling in tilings(stored) for vertex in tiling["poles"]]
-    zeros = [vertex for tiling in tilings(stored) for vertex in tiling["zeros"]]
+    """The marks of tilings of whole parts: ((n,) vertices, (n,) whether each is a pole, else a branch point)."""
+    poles = [vertex for tiling in whole_tilings(stored) for vertex in tiling["poles"]]
+    zeros = [vertex for tiling in whole_tilings(stored) for vertex in tiling["zeros"]]
     return np.array(poles + zeros, np.int64), np.arange(len(poles) + len(zeros)) < len(poles)
 
 
 def cones(stored):
-    """(n,) vertices at which the tilings that turn have cones, in the place of poles."""
-    return np.array([vertex for tiling in tilings(stored) for vertex in tiling.get("cones", [])], np.int64)
+    """(n,) vertices at which the tilings of whole parts that turn have cones, in the place of poles."""
+    return np.array([vertex for tiling in whole_tilings(stored) for vertex in tiling.get("cones", [])], np.int64)
 
 
 def turns(stored):
@@ -54,17 +62,35 @@ def turns(stored):
     return max((tiling.get("turns", 1) for tiling in tilings(stored)), default=1)
 
 
+class Found(NamedTuple):
+    """What a panel shows of the tilings of a map, beside the dials that asked for them.
+
+    points : how many there are; turns : see `turns`; tiles, width : how many, and how wide they are on the surface; 0
+        without tilings
+    """
+
+    points: int = 0
+    turns: int = 1
+    tiles: int = 0
+    width: float = 0.0
+
+
+@functools.lru_cache(maxsize=16)
+def found(stored):
+    """The `Found` of a stored report."""
+    parts = [part for part in parsed(stored).get("components", []) if "tiling" in part]
+    tiles = min(sum(part["tiling"]["tiles"] for part in parts), MOST_TILES)
+    area = max(sum(part["area"] for part in parts), 0.0)
+    points = sum(len(part["tiling"]["poles"]) + len(part["tiling"]["cones"]) for part in parts)
+    return Found(points, turns(stored), round(tiles), math.sqrt(area / tiles) if tiles > 0 else 0.0)
+
+
 def asked(stored):
     """The `mapped.TileOptions` that a tiling was made with, but for where its poles may be; None where there are
     none."""
     values = parsed(stored).get("asked")
-    known = [one.name for one in fields(TileOptions)]
-    return None if values is None else TileOptions(**{name: as_tuple(values[name]) for name in known if name in values})
-
-
-def as_tuple(value):
-    """A list of JSON, and those in it, as tuples; anything else as it is."""
-    return tuple(map(as_tuple, value)) if isinstance(value, list) else value
+    known = [one.name for one in fields(TileOptions) if one.name in (values or {})]
+    return None if values is None else TileOptions(**{name: shape.as_tuple(values[name]) for name in known})
 
 
 def verdicts(entry):
@@ -89,6 +115,12 @@ def joined(entry):
 def is_edited(entry, mesh):
     """Whether a mesh was edited since its report was made."""
     return entry.get("shape_key") not in (None, mesh_io.shape_key(mesh))
+
+
+def is_behind(entry, obj):
+    """Whether a map was made of other dials than the object has now."""
+    made, now = entry["dials"].get("stored") or {}, stored_dials.of(obj)
+    return any(made[name] != value for name, value in now.items() if name in made)
 
 
 @functools.lru_cache(maxsize=16)
@@ -155,14 +187,6 @@ def _tiling_lines(tiling):
     if tiling["periods"]:
         shown = ", ".join(f"({u}, {v})" for u, v in tiling["periods"][:SHOWN_PERIODS])
         yield f"periods: {shown}" + (", ..." if len(tiling["periods"]) > SHOWN_PERIODS else "")
-
-
-def tiling_summary(stored):
-    """Short lines on the parts with a tiling, for a redo panel."""
-    parts = [part for part in parsed(stored).get("components", []) if "tiling" in part]
-    if len(parts) == 1:
-        return [_sentence(parts[0]), *_tiling_lines(parts[0]["tiling"])]
-    return [f"Part {index}: {_sentence(part)}" for index, part in enumerate(parts[:SUMMARISED], 1)]
 
 
 MOST_TIMES = 200  # beyond, the number does not matter

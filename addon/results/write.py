@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The end of a run, in Blender's main thread: maps are written to the objects and reported."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 
@@ -9,9 +9,9 @@ from .. import native
 from ..maps import mapped, packing
 from ..materials import material
 from ..materials.user_texture import Own
-from ..scene import mesh_io, targets, uv_maps
+from ..scene import gathering, mesh_io, stored_dials, targets, uv_maps
 from ..writing import transaction
-from . import heat, report, restore, stored, tags
+from . import heat, points, report, restore, shape, stored, tags
 from .report import Outcome, with_coarse_places
 
 
@@ -28,13 +28,15 @@ class WriteOptions:
     empties: bool = False  # at poles and branch points
     size: float = 0.0  # width of an image of the texture on the surface; 0 for the number of squares
     own: object | None = None  # `user_texture.Own`: the texture is one of the user's
+    repeats: int = 1  # images of the texture side by side in a tile, at least
+    stored: dict = field(default_factory=dict)  # the dials of which the maps are made
 
 
 def options_of(dials):
     """The `WriteOptions` in a stored report; the checker where a texture of the user's is gone."""
     values = {one.name: dials[one.name] for one in fields(WriteOptions) if one.name in dials}
     if values.get("own"):
-        own = Own(**{name: stored.as_tuple(value) for name, value in values["own"].items()})
+        own = Own(**{name: shape.as_tuple(value) for name, value in values["own"].items()})
         values |= {"own": own} if own.block else {"own": None, "texture": material.CHECKER}
     return WriteOptions(**values)
 
@@ -90,6 +92,9 @@ def _write_object(step, outcome, target, made, options):
             material.cover(each, covering)
     heat.refresh(obj)
     obj.data.update()
+    for each in (obj, *gathering.others(obj)):
+        stored_dials.write(each, points.kept(options.stored, made, obj.data))
+    options = replace(options, stored=stored_dials.of(obj))
     entry = report.object_report(obj, made, written, new_seams, options)
     entry = with_coarse_places(obj, polygons, entry)
     report.store(obj, entry)
@@ -128,7 +133,7 @@ def _look(made, options, is_tiling):
     to be seen: the squares are those of density 1, so that there are more of them where it is higher."""
     if is_tiling:
         cells = material.cells(options.texture)
-        cells *= max(1, round(options.checker_scale / cells))
+        cells *= max(options.repeats, round(options.checker_scale / cells))
         turns = max(part.map.turns for part in made.tiled)
         own = options.own and options.own.on_turned(turns)
         return material.Look(options.texture, cells, made.unit_length, True, own, turns != 1)

@@ -10,7 +10,7 @@ import numpy as np
 from .. import compatibility
 from ..compatibility import Values
 from ..materials import material
-from ..scene import mesh_io
+from ..scene import mesh_io, stored_dials
 
 OURS = "holomorph"  # what the names of our custom properties begin with
 NAMED = "Holomorphic"  # and those of our texts
@@ -18,7 +18,8 @@ NAMED = "Holomorphic"  # and those of our texts
 
 def own_properties(owner):
     """Our custom properties of a data-block."""
-    values = {name: owner[name] for name in owner.keys() if name.startswith(OURS)}  # noqa: SIM118  no dictionary
+    names = [name for name in owner.keys() if name.startswith(OURS) and name != stored_dials.NAME]  # noqa: SIM118
+    values = {name: owner[name] for name in names}
     return {name: dict(value) if hasattr(value, "keys") else value for name, value in values.items()}
 
 
@@ -41,11 +42,22 @@ class Properties:
         restore_properties(self._owner, self._before)
 
 
-class ObjectState:
-    """An object's material slots, properties, and whether it is rendered. @pre for `restore`: its mesh is restored"""
+class DialsState:
+    """The dials of an object."""
 
     def __init__(self, obj):
-        self._object, self._properties = obj, Properties(obj)
+        self._object, self._before = obj, stored_dials.chosen(obj)
+
+    def restore(self):
+        stored_dials.choose(self._object, self._before)
+
+
+class ObjectState:
+    """An object's material slots, properties, dials, and whether it is rendered. @pre for `restore`: its mesh is
+    restored"""
+
+    def __init__(self, obj):
+        self._object, self._properties, self._dials = obj, Properties(obj), DialsState(obj)
         self._links, self._own = [slot.link for slot in obj.material_slots], []
         self._active, self._hidden = obj.active_material_index, obj.hide_render
 
@@ -66,6 +78,7 @@ class ObjectState:
             slot.link = link
         obj.active_material_index, obj.hide_render = self._active, self._hidden
         self._properties.restore()
+        self._dials.restore()
 
 
 class Attributes:

@@ -97,7 +97,7 @@ def one_button():
     mug = load("mug")
     look(-0.5, 0.4, MUG)
     yield from show("before", view())
-    yield from press_button("VIEW_3D", "tile")
+    yield from press_button("VIEW_3D")
     yield from wait_for_maps(mug)
     yield from show("button", view())
 
@@ -111,7 +111,7 @@ def dials():
     with inside(view()):
         bpy.ops.ed.undo_push(message="Mug")
     yield 1
-    yield from press_button("VIEW_3D", "tile")
+    yield from press_button("VIEW_3D")
     yield from wait_for_maps(mug)
     hud = region(view(), "HUD")
     click(hud.x + 30, hud.y + hud.height / 2)

@@ -1,5 +1,6 @@
 """Poles that are dragged, by the operator as scripts call it, and what of a mesh is under the pointer."""
 
+import json
 from functools import partial
 from types import SimpleNamespace
 
@@ -76,7 +77,7 @@ def test_other_tiles_rotations_and_lattices_place_no_poles_again(stages):
     torus()
     tile()
     assert {"placing", "rounding"} <= set(stages)
-    for options in ({"tiles": 150}, {"turn": 0.3}, {"lattice": "hex"}, {"quarters": 1}):
+    for options in ({"tiles": 150}, {"rotation": 0.3}, {"lattice": "hex"}, {"quarters": 1}):
         stages.clear()
         assert tile(**options) == {"FINISHED"}
         assert "placing" not in stages
@@ -110,7 +111,7 @@ def test_a_pole_goes_where_it_is_put_and_the_map_stays_seamless(stages):
     vertices, jumps = edge_jumps(obj)
     jumps = jumps[~np.isin(vertices, poles(obj))]
     assert np.array_equal(jumps, np.round(jumps)) and np.abs(jumps).max() >= 1
-    assert stored_report(obj)["asked"]["moved"] == [[1, place]]
+    assert json.loads(obj.holomorph_map.moved)["moves"] == [[1, place]]
     assert stored_report(obj)["components"][0]["tiling"]["added_distortion"] < 1.05
     bpy.context.view_layer.update()
     at = [
@@ -127,15 +128,15 @@ def test_a_second_move_adds_to_the_first_and_tiles_can_change_with_the_poles_kep
     second = neighbour(obj, poles(obj)[2])
     move(f"2:{second}")
     assert (poles(obj)[0], poles(obj)[2]) == (first, second)
-    assert sorted(stored_report(obj)["asked"]["moved"]) == [[0, first], [2, second]]
+    assert sorted(json.loads(obj.holomorph_map.moved)["moves"]) == [[0, first], [2, second]]
     kept = poles(obj)
-    tile(poles="KEPT", tiles=150)
+    tile(poles="COUNT", pole_count=4, tiles=150)
     assert sorted(poles(obj)) == sorted(kept)
 
 
 def test_the_same_after_everything_was_forgotten():
     obj = torus()
-    tile(tiles=120, turn=0.2)
+    tile(tiles=120, rotation=0.2)
     move(f"0:{neighbour(obj, poles(obj)[0])}")
     before = uv(obj)
     place = poles(obj)[0]
@@ -195,10 +196,10 @@ def test_poles_keep_to_their_vertex_group():
 
 def test_the_operator_says_what_it_needs():
     obj = torus()
-    with pytest.raises(RuntimeError, match="Select an object with poles"):
+    with pytest.raises(RuntimeError, match="Select an object whose map has points"):
         move("")
     tile(poles="COUNT", pole_count=0)
-    with pytest.raises(RuntimeError, match="Select an object with poles"):
+    with pytest.raises(RuntimeError, match="Select an object whose map has points"):
         move("")
     tile()
     for vertex in obj.data.vertices:  # so that poles are placed elsewhere

@@ -128,15 +128,17 @@ def test_a_map_that_would_lose_too_much_is_refused_in_a_sentence(monkeypatch):
     assert everything(obj) == before
 
 
-def test_rows_at_edges_hold_the_cones():
+def test_rows_at_edges_give_way_to_a_cone_that_is_dragged():
     bpy.ops.mesh.primitive_cube_add()
     obj = bpy.context.object
     obj.modifiers.new("Finer", "SUBSURF").subdivision_type = "SIMPLE"
     obj.modifiers["Finer"].levels = 3
     bpy.ops.object.modifier_apply(modifier="Finer")
     tile(rows="END_AT_EDGES")
-    with pytest.raises(RuntimeError, match="its rows lie at edges, which hold its cones: set Rows to Anywhere first"):
-        move("0:3")
+    place = neighbour(obj, next(iter(cones(obj))))
+    assert move(f"0:{place}") == {"FINISHED"}
+    (tiling,) = [part["tiling"] for part in stored_report(obj)["components"]]
+    assert place in tiling["cones"] and tiling["lines"] == "none"
 
 
 def test_a_session_shows_and_gives_back():

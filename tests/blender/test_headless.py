@@ -316,7 +316,7 @@ def test_tiles_are_over_all_objects_of_a_file(tmp_path):
         (("--seamless", "--pole-group", "Hidden"), "no vertex group 'Hidden'"),
         (("--seamless", "--boundary", "double_cover"), "--boundary"),
         (("--boundary", "free"), "--boundary"),
-        (("--seamless", "--turns", "half", "--poles", "4"), "a map with half turns has no choice of Poles"),
+        (("--seamless", "--turns", "half", "--poles", "4"), "a map with half turns has no choice of Points"),
     ],
 )
 def test_options_of_a_tiling_that_cannot_be(options, word, torus_file):

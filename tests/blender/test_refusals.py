@@ -146,7 +146,7 @@ def test_only_the_faces_that_are_not_finite_are_left_out(value):
     assert stored_report(obj)["whole"]["unmapped_faces"] == 4
 
 
-@pytest.mark.parametrize(("dial", "name"), [("size", "Size"), ("evenness", "Evenness"), ("turn", "Rotation")])
+@pytest.mark.parametrize(("dial", "name"), [("size", "Size"), ("evenness", "Evenness"), ("rotation", "Rotation")])
 def test_numbers_of_scripts_that_are_none_are_named(dial, name):
     """The limits of a property do not hold them back."""
     obj = torus()

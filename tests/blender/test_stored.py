@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from drawn_images import periodic_noise
-from drawn_panel import Drawn, drawn
+from drawn_panel import drawn
 from loaded_addon import module
 from scenes import (
     grid_arrays,
@@ -22,7 +22,7 @@ from scenes import (
     two_parts,
 )
 
-stored, symmetric, write, marks_view, bake, geometry, tile_properties, drag = map(
+stored, symmetric, write, marks_view, bake, geometry, drag = map(
     module,
     (
         "results.stored",
@@ -31,7 +31,6 @@ stored, symmetric, write, marks_view, bake, geometry, tile_properties, drag = ma
         "overlays.marks_view",
         "baking.bake",
         "things.geometry",
-        "operators.tile_properties",
         "operators.drag",
     ),
 )
@@ -107,7 +106,9 @@ def read_everywhere(obj):
     text = obj[KEY]
     drawn(obj, is_edited=stored.is_edited(stored.parsed(text), obj.data))
     stored.summary(text)
-    tile_properties.draw_tiling(Drawn(), obj)
+    stored.found(text)
+    if stored.parsed(text):
+        stored.is_behind(stored.parsed(text), obj)
     marks_view._points(obj, None)
     drag.HOLOMORPH_OT_drag_poles.why_not(bpy.context)
     symmetric.shown_turns(text)
@@ -141,7 +142,6 @@ def test_what_is_no_text_of_json_is_no_report(value):
 
 
 PRESSES = {
-    "kept": lambda: bpy.ops.uv.holomorphic_tile(poles="KEPT"),
     "coarse": lambda: bpy.ops.uv.holomorphic_tile(poles="COARSE", is_trial=True),
     "drag": lambda: bpy.ops.uv.holomorphic_drag_poles(moves="0:5"),
     "symmetric": lambda: bpy.ops.uv.holomorphic_make_symmetric(),

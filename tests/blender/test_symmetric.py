@@ -231,7 +231,7 @@ def test_the_panel_offers_it():
     obj = ball()
     noise()
     tile()
-    told = "This texture shows its turns: seams are seen where the map turns"
+    told = "The texture shows where it turns"
     layout = drawn(obj, width=2000)
     assert told in layout.texts and "uv.holomorphic_make_symmetric" in layout.buttons
     make()

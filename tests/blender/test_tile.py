@@ -78,7 +78,7 @@ def selected_poles(obj):
     return found[is_pole].tolist()
 
 
-@pytest.mark.parametrize("options", [{}, {"tiles": 200}, {"poles": "COUNT", "pole_count": 0}, {"turn": 0.5}])
+@pytest.mark.parametrize("options", [{}, {"tiles": 200}, {"poles": "COUNT", "pole_count": 0}, {"rotation": 0.5}])
 def test_the_map_is_written_and_jumps_by_whole_numbers_exactly(options):
     obj = torus()
     obj.data.uv_layers.new(name="Artist")
@@ -105,7 +105,7 @@ def test_what_is_asked_of_the_library(calls):
         tiles=100, poles="auto", lattice="square", direction=None, turn=None, boundary="automatic", allowed=None
     ) | dict(max_turn=0.2, max_added=None, size_counts=False, evenness=0.5)
     assert calls == [plain | dict(direction="upright")]
-    tile(tiles=120, poles="COUNT", pole_count=3, lattice="hex", boundary="free", turn=0.25, direction="NONE")
+    tile(tiles=120, poles="COUNT", pole_count=3, lattice="hex", boundary="free", rotation=0.25, direction="NONE")
     chosen = dict(tiles=120.0, poles=3, lattice="hex", boundary="free", turn=0.25, size_counts=True)
     assert calls[1] == plain | chosen  # other numbers are tried until that many tiles are there
 
@@ -317,7 +317,7 @@ def test_report_and_panel_begin_with_words(calls):
 
 def test_the_number_of_tiles_that_was_chosen_is_told(calls):
     obj = torus()
-    outcome = written(obj, main="TILING")
+    outcome = written(obj, main="SEAMLESS")
     (tiling,) = [part["tiling"] for part in outcome.entries[0]["components"]]
     assert outcome.tiles == round(tiling["tiles"]) > 0
     assert written(obj, main="BALANCED").tiles == 0
@@ -397,7 +397,7 @@ def test_cancelling_leaves_no_result(calls):
     torus()
     targets, jobs = module("scene.targets"), module("solving.jobs")
     tasks = targets.tasks(targets.collect(module("scene.gathering").mesh_objects(bpy.context))) * 2
-    made = then(2, main="TILING")
+    made = then(2, main="SEAMLESS")
     work = jobs.Job(tasks, lambda fraction: work.cancel() if fraction > 0.2 else None, made)
     work.run()
     assert all(isinstance(found, native.load().Cancelled) for found in work.results)

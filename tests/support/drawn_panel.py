@@ -22,10 +22,13 @@ class Drawn:
         self.calls.append((name, type("Properties", (), {})()))
         return self.calls[-1][1]
 
-    def box(self, **_options):
+    def column(self, **_options):
         return self
 
-    row = column = split = box
+    def separator(self, **_options):
+        pass
+
+    row = split = column
 
 
 def drawn(obj, width=220, is_edited=False):
@@ -33,5 +36,5 @@ def drawn(obj, width=220, is_edited=False):
     style = SimpleNamespace(widget=SimpleNamespace(points=11))
     preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0), ui_styles=[style])
     layout, context = Drawn(), SimpleNamespace(region=SimpleNamespace(width=width), preferences=preferences)
-    verdict_view.draw(layout, context, obj["holomorph_report"], "uv.holomorphic_tile", is_edited)
+    verdict_view.draw(layout, context, obj["holomorph_report"], is_edited)
     return layout

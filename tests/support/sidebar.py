@@ -4,9 +4,7 @@ import bpy
 from screen import area, click, event, move, region
 
 TABS_STEP = 30  # pixels; a tab is longer
-# Pixels below the top of the sidebar; those for selected vertices in edit mode, that for poles below the report of one
-# part of genus 1.
-BUTTONS = {"maps": 44, "tile": 65, "drag": 478, "poles": 112, "rectangle": 133}
+BUTTONS = {"presets": 16, "maps": 51, "drag": 197}  # pixels below the top of the sidebar
 drawn = {"VIEW_3D": 0, "IMAGE_EDITOR": 0}
 
 

@@ -14,6 +14,7 @@ from sidebar import open_sidebar, press_button
 
 seen = {}
 NAME = "Ring"
+WOOD = 202  # pixels below the top of the sidebar, of the preset
 
 
 def addon(name):
@@ -70,7 +71,8 @@ def prepare():
 
 def tiling():
     """By the button, in the background."""
-    yield from press_button("VIEW_3D", "tile")
+    with inside(area("VIEW_3D")):
+        bpy.ops.uv.holomorphic_tile("INVOKE_DEFAULT", True)
     yield from wait_until(lambda: "holomorph_report" in obj())
     yield 0.25
     seen["tiled"] = part_report(NAME)["main_map"]["verdict"]["sentence"]
@@ -78,17 +80,18 @@ def tiling():
 
 
 def redo_panel():
-    """Opened, and a preset chosen at its top: the poles stay those that were placed."""
+    """Opened; and a preset chosen in the sidebar: the poles stay those that were placed."""
     hud = region(area("VIEW_3D"), "HUD")
     click(hud.x + 30, hud.y + hud.height / 2)
     yield 0.4
     picture("tile_redo_panel.png")
-    click(hud.x + 100, hud.y + hud.height - 43)
+    yield from press_button("VIEW_3D", "presets", 0.78)
     yield 0.25
     picture("tile_presets.png")
     yield 0.12
     stages = note_stages()
-    tap("W")  # the letter that is underlined in its entry
+    sidebar = region(area("VIEW_3D"), "UI")
+    click(sidebar.x + 150, sidebar.y + sidebar.height - WOOD)
     yield 0.5
     seen["stages of the preset"] = sorted(set(stages))
     seen["texture after the preset"] = json.loads(obj()["holomorph_report"])["dials"]["texture"]

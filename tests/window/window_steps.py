@@ -139,14 +139,15 @@ def chosen_vertices():
     with inside(view):
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.view3d.view_selected()
-    for button, vertices in (("rectangle", (0, 8, 72, 80)), ("poles", (40,))):
+    for use, vertices in (("RECTANGLE", (0, 8, 72, 80)), ("POLES", (40,))):
         pick_vertices("Sheet", vertices)
         hover(view)
         yield 0.25
-        yield from press_button("VIEW_3D", button)
+        with inside(view):
+            bpy.ops.uv.holomorphic_maps("INVOKE_DEFAULT", True, use_selection=use)
         yield 0.5
-        seen[f"part after {button}"] = part_report("Sheet")
-        picture(f"{button}.png")
+        seen[f"part after {use.lower()}"] = part_report("Sheet")
+        picture(f"{use.lower()}.png")
         yield 0.12
     with inside(view):
         bpy.ops.object.mode_set(mode="OBJECT")

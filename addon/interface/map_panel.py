@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The box *Map*: the button, the dials of the active object, its points, the verdict; and *Advanced*."""
+
+import bpy
+
+from .. import native
+from ..operators import drag, tools
+from ..operators.dials import HOLOMORPH_OT_quarter
+from ..operators.dials_view import dial, draw_texture, row
+from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
+from ..operators.mixins import CONVERT, CONVERTIBLE
+from ..operators.properties import UNLINED
+from ..overlays import overlay
+from ..scene import stored_dials
+from . import lines
+
+UNTILED = {"BALANCED", "ISLANDS"}  # values of the dial of seams without tiles that fit together
+TURNED = {2: "½", 4: "¼", 6: "⅙"}
+
+
+class HOLOMORPH_MT_make(bpy.types.Menu):
+    bl_label = "Make Map as"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.operator_context = "INVOKE_DEFAULT"
+        layout.operator(HOLOMORPH_OT_maps.bl_idname, text="Automatic", icon="UV").main = "AUTOMATIC"
+        layout.operator(HOLOMORPH_OT_tile.bl_idname, icon="TEXTURE")
+        layout.operator(HOLOMORPH_OT_islands.bl_idname, icon="UV_ISLANDSEL")
+        if context.mode == "EDIT_MESH":
+            layout.separator()
+            chosen = layout.operator(HOLOMORPH_OT_maps.bl_idname, text="Selected Faces Only", icon="FACESEL")
+            chosen.use_selection = "FACES"
+            chosen = layout.operator(HOLOMORPH_OT_tile.bl_idname, text="Points at Selected Vertices", icon="VERTEXSEL")
+            chosen.poles = "SELECTED"
+            chosen = layout.operator(HOLOMORPH_OT_maps.bl_idname, text="Corners of a Rectangle", icon="MESH_PLANE")
+            chosen.use_selection, chosen.main = "RECTANGLE", "AUTOMATIC"
+
+
+class MapPanel:
+    bl_label = "Map"
+
+    def draw(self, context):
+        layout, obj = self.layout, context.active_object
+        text = _report(obj)
+        is_edited, is_behind = _is_edited(obj, text), _is_behind(obj, text)
+        button = layout.row(align=True)
+        button.scale_y = 1.5
+        _draw_button(button, is_edited or is_behind)
+        if native.problem():
+            lines.draw(layout.column(align=True), context, native.problem(), "ERROR")
+        elif obj is not None and obj.type in CONVERTIBLE:
+            lines.draw(layout.column(align=True), context, CONVERT, "INFO")
+        elif obj is not None and obj.type == "MESH":
+            dials = getattr(obj, stored_dials.NAME)
+            _draw_dials(layout.column(), context, dials, text)
+            _draw_note(layout.column(align=True), context, obj, dials)
+            if text:
+                from . import verdict_view
+
+                verdict_view.draw(layout, context, text, is_edited)
+
+
+def _report(obj):
+    """The stored report of an object, or ""."""
+    if native.problem() or obj is None or obj.type != "MESH":
+        return ""
+    from ..results import report, stored
+
+    text = obj.get(report.PROPERTY)
+    return text if stored.parsed(text) else ""
+
+
+def _is_edited(obj, text):
+    if not text:
+        return False
+    from ..results import stored
+
+    return stored.is_edited(stored.parsed(text), obj.data)
+
+
+def _is_behind(obj, text):
+    """Whether the map is not that of the dials."""
+    if not text:
+        return False
+    from ..results import stored
+
+    return stored.is_behind(stored.parsed(text), obj)
+
+
+def _draw_button(layout, is_update):
+    from ..operators.mixins import WorkOperator
+
+    running = WorkOperator.running
+    if running is None:
+        text = "Update Map" if is_update else HOLOMORPH_OT_maps.bl_label
+        layout.operator(HOLOMORPH_OT_maps.bl_idname, text=text, icon="UV")
+        layout.menu(HOLOMORPH_MT_make.__name__, text="", icon="DOWNARROW_HLT")
+    elif bpy.app.version >= (4, 0):
+        layout.progress(text="Making Map (ESC stops)", factor=running.watch.fraction)
+    else:
+        layout.label(text=f"Making Map: {running.watch.fraction:.0%} (ESC stops)")
+
+
+def _draw_dials(layout, context, dials, text):
+    draw_texture(layout, dials)
+    is_tiled = dials.main not in UNTILED
+    name = "size" if dials.by_size or not is_tiled else "tiles"
+    made = dial(layout, dials, name, f"{name}_shown")
+    if is_tiled:
+        made.prop(dials, "by_size", text="", icon="DRIVER_DISTANCE")
+    dial(layout, dials, "evenness", slider=True)
+    if not is_tiled:
+        return
+    found = _found(text)
+    made = dial(layout, dials, "turns")
+    if found.turns in TURNED:
+        end = made.row(align=True)
+        end.ui_units_x = 1
+        end.label(text=TURNED[found.turns])
+    made = dial(layout, dials, "direction")
+    made.operator(HOLOMORPH_OT_quarter.bl_idname, text="", icon="DRIVER_ROTATIONAL_DIFFERENCE")
+    if found.points:
+        made = row(layout, f"{found.points} Points")
+        made.operator(drag.HOLOMORPH_OT_drag_poles.bl_idname, text="Drag", icon="VIEW_PAN")
+        if dials.moved:
+            made.operator(drag.HOLOMORPH_OT_automatic_points.bl_idname, text="", icon="LOOP_BACK")
+        is_shown = getattr(context.window_manager, overlay.MARKS)
+        made.prop(context.window_manager, overlay.MARKS, text="", icon="HIDE_OFF" if is_shown else "HIDE_ON")
+
+
+def _found(text):
+    from ..results import stored
+
+    return stored.found(text)
+
+
+def _draw_note(layout, context, obj, dials):
+    if dials.refused:
+        lines.draw(layout, context, dials.refused, "ERROR")
+    elif obj.modifiers and not len(obj.data.polygons) and not dials.modifiers:
+        lines.draw(layout, context, "Its faces come only from modifiers: switch With Modifiers on", "INFO")
+    from ..results import restore
+
+    if context.mode == "OBJECT" and restore.is_possible(obj):
+        layout.operator(tools.HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
+
+
+class AdvancedPanel:
+    bl_label = "Advanced"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return not native.problem() and context.active_object is not None and context.active_object.type == "MESH"
+
+    def draw(self, context):
+        obj = context.active_object
+        dials, column = getattr(obj, stored_dials.NAME), self.layout.column()
+        dial(column, dials, "main")
+        dial(column, dials, "rotation")
+        for name in shown(dials):
+            dial(column, dials, name)
+        if dials.main not in UNTILED:
+            row(column, "Only in").prop_search(dials, "pole_group", obj, "vertex_groups", text="")
+        for name in _switches(context, obj, dials):
+            row(column, "").prop(dials, name)
+
+
+def shown(dials):
+    """The dials that do something on this object."""
+    if dials.main == "ISLANDS":
+        return "hard_edges", "most_stretch", "margin"
+    if dials.main == "BALANCED":
+        return ("margin",)
+    names = [] if dials.turns in UNLINED else ["rows"]
+    names += ["lattice", "boundary", "repeats", "poles"]
+    return [*names, "pole_count"] if dials.poles == "COUNT" else names
+
+
+def _switches(context, obj, dials):
+    yield "seams"
+    if len([one for one in context.selected_objects if one.type == "MESH"]) > 1:
+        yield "equal"
+    if obj.modifiers:
+        yield "modifiers"
+    if dials.main == "SEAMLESS":
+        yield "empties"
+
+
+register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_MT_make])

@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import bpy
+
+dials = bpy.context.active_object.holomorph_map
+
+dials.tiles = 100
+dials.size = 0.0
+dials.lattice = "square"
+dials.direction = "UPRIGHT"
+dials.boundary = "free"
+dials.checker = True
+dials.texture = "HEXAGONS"
+dials.repeats = 1

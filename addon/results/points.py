@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The points of a map, its poles and cones, that were dragged or selected: an object stores them with its dials."""
+
+import functools
+import json
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from ..scene.stored_dials import MOVED
+from . import shape
+
+BY_SELECTION = {"SELECTED", "COARSE"}  # values of the dial of the points that are for one run: their points are moved
+ROUNDING = 1e-6  # of angles, in turns
+
+
+@dataclass(frozen=True)
+class Points:
+    """Those of one object. On another mesh, or with another number of points asked for, they do not count.
+
+    vertices : how many its mesh has
+    count : of points on each part, as it was asked for; -1 for automatic
+    poles : vertices of those on the parts of which one was moved, where they are now
+    base : the vertices where these were before, if they were chosen; none if they were placed
+    moves : (index of a pole in the tiling of its part, vertex to which it was moved)
+    cones : (vertex, angle in full turns)
+    """
+
+    vertices: int
+    count: int
+    poles: tuple = ()
+    base: tuple = ()
+    moves: tuple = ()
+    cones: tuple = ()
+
+    @property
+    def text(self):
+        """As a dial of the object."""
+        return json.dumps(asdict(self))
+
+    def asked(self, turns, is_open):
+        """The fields of `mapped.TileOptions` on a map whose sides turn by this part of a full turn.
+
+        is_open : whether parts on which poles were moved need not turn
+        """
+        fields, angles = {}, turns * np.array([angle for _, angle in self.cones])
+        if turns != 1 and np.all(np.abs(angles - np.round(angles)) < ROUNDING):
+            fields["cones"] = self.cones
+        if self.poles and (turns == 1 or is_open):
+            fields |= {"moved": self.moves, "points": self.poles}
+            fields |= {"poles": self.base} if self.base else {}
+        return fields
+
+
+@functools.lru_cache(maxsize=1)
+def _shape():
+    return {
+        "vertices": shape.count,
+        "count": int,
+        **dict.fromkeys(("poles", "base"), [shape.count]),
+        "moves": [shape.row(shape.count, shape.count)],
+        "cones": [shape.row(shape.count, shape.number)],
+    }
+
+
+def of(text, dials, mesh):
+    """The `Points` in the dial of an object; None where they do not count, or what is there is none."""
+    try:
+        values = json.loads(text) if text else None
+    except (ValueError, RecursionError):
+        return None
+    if not shape.fits(values, _shape()):
+        return None
+    found = Points(**{name: shape.as_tuple(values[name]) for name in Points.__dataclass_fields__})
+    used = [*found.poles, *found.base, *(v for _, v in found.moves), *(v for v, _ in found.cones)]
+    is_there = found.vertices == len(mesh.vertices) and max(used, default=0) < found.vertices
+    return found if is_there and found.count == asked_count(dials) else None
+
+
+def asked_count(dials):
+    """See `Points.count`."""
+    return dials.pole_count if dials.poles == "COUNT" else -1
+
+
+def kept(stored, made, mesh):
+    """The dials that an object stores of a `mapped.MappedObject`: points of one run are moved ones from then on."""
+    if stored.get("poles") not in BY_SELECTION:
+        return stored
+    chosen = made.options.tiling.poles
+    chosen = chosen if isinstance(chosen, tuple) else ()
+    text = Points(len(mesh.vertices), -1, poles=chosen, base=chosen).text if chosen else ""
+    return stored | {"poles": "AUTOMATIC", MOVED: text}

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The dials that objects store: a property group of each, from which buttons start and to which runs write back."""
+
+from contextlib import contextmanager
+
+import bpy
+
+NAME = "holomorph_map"  # of the group, a property of objects
+OF_BLENDER = {"rna_type", "name"}  # properties of every group
+MOVED = "moved"  # the name of the dial that is each object's own: points that were dragged
+
+_quiet = []  # not empty while dials are written and nothing is to follow
+
+
+def names():
+    """What the dials are called. What the group has beside them is hidden."""
+    group = bpy.types.Object.bl_rna.properties[NAME].fixed_type
+    return [one.identifier for one in group.properties if one.identifier not in OF_BLENDER and not one.is_hidden]
+
+
+def read(owner):
+    """{name: value} of the dials that an owner has: an operator, options of a command, or the group of an object."""
+    return {name: _plain(getattr(owner, name)) for name in names() if hasattr(owner, name)}
+
+
+def of(obj):
+    """{name: value} of the dials of an object; those that are not yet there stay so."""
+    if obj.is_property_set(NAME):
+        return read(getattr(obj, NAME))
+    properties = bpy.types.Object.bl_rna.properties[NAME].fixed_type.properties
+    return {name: _default(properties[name]) for name in names()}
+
+
+def write(obj, values):
+    """Writes dials of an object; nothing follows them."""
+    now = of(obj)
+    with quietly():
+        for name, value in values.items():
+            if name in now and now[name] != value:
+                setattr(getattr(obj, NAME), name, value)
+
+
+def chosen(obj):
+    """{name: value} of the dials of an object that were ever set."""
+    if not obj.is_property_set(NAME):
+        return {}
+    group = getattr(obj, NAME)
+    return {name: value for name, value in read(group).items() if group.is_property_set(name)}
+
+
+def choose(obj, values):
+    """Sets these dials of an object, and none but these."""
+    if not values:
+        forget(obj)
+        return
+    group, now = getattr(obj, NAME), chosen(obj)
+    for name in now.keys() - values.keys():
+        group.property_unset(name)
+    with quietly():
+        for name, value in values.items():
+            if name not in now or now[name] != value:
+                setattr(group, name, value)
+
+
+def forget(obj):
+    """All dials are automatic again."""
+    obj.property_unset(NAME)
+
+
+@contextmanager
+def quietly():
+    """While nothing follows a dial."""
+    _quiet.append(True)
+    try:
+        yield
+    finally:
+        _quiet.pop()
+
+
+def are_quiet():
+    return bool(_quiet)
+
+
+def _default(one):
+    return list(one.default_array) if getattr(one, "is_array", False) else one.default
+
+
+def _plain(value):
+    """As JSON has it."""
+    return list(value) if hasattr(value, "__len__") and not isinstance(value, str) else value
