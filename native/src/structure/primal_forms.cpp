@@ -95,7 +95,7 @@ class KeptForms final : public PrimalForms {
 // A few forms at a time, of a closed surface.
 class StreamedForms final : public PrimalForms {
  public:
-  StreamedForms(const Structure& structure, const Options& options) : structure_(structure), options_(options) {}
+  explicit StreamedForms(const Structure& structure) : structure_(structure) {}
 
   void prepare(Execution& execution) override {
     if (solver_) return;
@@ -143,7 +143,6 @@ class StreamedForms final : public PrimalForms {
 
  private:
   const Structure& structure_;
-  const Options& options_;
   std::unique_ptr<const mesh::Discretisation> own_;
   std::unique_ptr<HarmonicSolver> solver_;
 };
@@ -152,7 +151,7 @@ class StreamedForms final : public PrimalForms {
 
 std::unique_ptr<PrimalForms> primal_forms(const Structure& structure, const Options& options) {
   if (structure.record.memory.keep_forms) return std::make_unique<KeptForms>(structure, options);
-  return std::make_unique<StreamedForms>(structure, options);
+  return std::make_unique<StreamedForms>(structure);
 }
 
 Eigen::VectorXcd balanced_coefficients(const Structure& structure, PrimalForms& forms, Execution& execution) {
