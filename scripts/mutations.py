@@ -95,7 +95,7 @@ MUTATIONS = (
         (
             "dense-upper",
             "bounds.upper = above_congruent(T, G)",
-            "bounds.upper = T * G * T.transpose()",
+            "bounds.upper = linear::congruent(T, G)",
             DENSE,
         ),
     )

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "base/execution.h"
+
 namespace holomorph::conformal {
 
 /// Computes the geometric mean A # B = A^(1/2) (A^(-1/2) B A^(-1/2))^(1/2) A^(1/2) of positive definite matrices, by
@@ -54,6 +56,6 @@ struct PeriodBounds {
 /// Bounds Omega from the Gram matrix G >= G_exact of admissible forms in a canonical basis:
 ///     (G_bb)^-1 <= Im Omega <= [1, -Z] G [1, -Z]^T for any Z, the least with Z = G_ab (G_bb)^-1,
 /// and, with the lower bound J^T G^-1 J of G_exact, also Re Omega = -G_ab Im Omega.
-PeriodBounds period_bounds(const Eigen::MatrixXd& G);
+PeriodBounds period_bounds(const Eigen::MatrixXd& G, Execution& execution);
 
 }  // namespace holomorph::conformal

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "base/execution.h"
 #include "conformal/certain_bounds.h"
 #include "topology/homology.h"
 
@@ -25,7 +26,8 @@ struct HolomorphicBasis {
 /// @param G 2g x 2g, of the harmonic basis dual to zeta. @param W its wedge matrix
 /// @param certain a matrix that is not below that of the surface, for the bounds: G, or G and its rounding
 HolomorphicBasis closed_basis(const Eigen::MatrixXd& G, const Eigen::MatrixXd& certain,
-                              const topology::IntegerMatrix& W, const topology::CanonicalBasis& canonical);
+                              const topology::IntegerMatrix& W, const topology::CanonicalBasis& canonical,
+                              Execution& execution);
 
 /// The basis of a surface with boundary, n = 2g + b - 1, the genus of the double.
 /// theta_i = h^N_i + i sum_j C#_ij h^D_j. Real combinations of these are holomorphic forms whose imaginary part
@@ -36,6 +38,6 @@ HolomorphicBasis closed_basis(const Eigen::MatrixXd& G, const Eigen::MatrixXd& c
 /// @param certain as in closed_basis
 /// @param W n x n, W_ij = int h^N_i ^ h^D_j
 HolomorphicBasis bounded_basis(const std::vector<Eigen::MatrixXd>& gram, const std::vector<Eigen::MatrixXd>& certain,
-                               const topology::IntegerMatrix& W, int genus);
+                               const topology::IntegerMatrix& W, int genus, Execution& execution);
 
 }  // namespace holomorph::conformal

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <type_traits>
 
 namespace holomorph::linear {
 
@@ -12,11 +13,23 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
+namespace {
+
+template <class Matrix>
+constexpr bool kIsReal = std::is_same_v<Matrix, MatrixXd>;
+
+}  // namespace
+
 template <class Matrix>
 Cholesky<Matrix>::Cholesky(const Matrix& A) {
-  const Eigen::LLT<Matrix> factor(A);
-  factor_ = factor.matrixLLT();
-  succeeded_ = factor.info() == Eigen::Success;
+  if constexpr (kIsReal<Matrix>) {
+    factor_ = A;
+    succeeded_ = factorise(factor_);
+  } else {
+    const Eigen::LLT<Matrix> factor(A);
+    factor_ = factor.matrixLLT();
+    succeeded_ = factor.info() == Eigen::Success;
+  }
 }
 
 template <class Matrix>
@@ -32,8 +45,13 @@ Matrix Cholesky<Matrix>::upper() const {
 template <class Matrix>
 Matrix Cholesky<Matrix>::solve(const Matrix& B) const {
   Matrix X = B;
-  factor_.template triangularView<Eigen::Lower>().solveInPlace(X);
-  factor_.adjoint().template triangularView<Eigen::Upper>().solveInPlace(X);
+  if constexpr (kIsReal<Matrix>) {
+    linear::solve_lower(factor_, X);
+    linear::solve_upper(factor_, X);
+  } else {
+    factor_.template triangularView<Eigen::Lower>().solveInPlace(X);
+    factor_.adjoint().template triangularView<Eigen::Upper>().solveInPlace(X);
+  }
   return X;
 }
 
@@ -47,7 +65,13 @@ typename Cholesky<Matrix>::Vector Cholesky<Matrix>::solve(const Vector& b) const
 
 template <class Matrix>
 Matrix Cholesky<Matrix>::solve_lower(const Matrix& B) const {
-  return factor_.template triangularView<Eigen::Lower>().solve(B);
+  if constexpr (kIsReal<Matrix>) {
+    Matrix X = B;
+    linear::solve_lower(factor_, X);
+    return X;
+  } else {
+    return factor_.template triangularView<Eigen::Lower>().solve(B);
+  }
 }
 
 template <class Matrix>
@@ -79,6 +103,11 @@ Eigen::Matrix3d eigenvectors(const Eigen::Matrix3d& A) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(A).eigenvectors();
 }
 
+bool is_below(const MatrixXd& A, const MatrixXd& B) {
+  MatrixXd difference = B - A;
+  return difference.allFinite() && factorise(difference);
+}
+
 std::optional<double> greatest_quotient(const MatrixXd& A, const MatrixXd& B) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> parts(A, B, Eigen::EigenvaluesOnly);
   if (parts.info() != Eigen::Success) return std::nullopt;
@@ -86,12 +115,12 @@ std::optional<double> greatest_quotient(const MatrixXd& A, const MatrixXd& B) {
 }
 
 std::optional<MatrixXd> square_root(const MatrixXd& A) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
-  if (eigen.info() != Eigen::Success || !(eigen.eigenvalues().minCoeff() > 0)) return std::nullopt;
-  return eigen.operatorSqrt();
+  MatrixXd V = A;
+  VectorXd d;
+  if (!A.allFinite() || !decompose(V, d) || !(d.minCoeff() > 0)) return std::nullopt;
+  return product(V * d.cwiseSqrt().asDiagonal(), V.transpose());
 }
 
-MatrixXd solve(const MatrixXd& A, const MatrixXd& B) { return A.partialPivLu().solve(B); }
 MatrixXd inverse(const MatrixXd& A) { return A.inverse(); }
 MatrixXcd inverse(const MatrixXcd& A) { return A.inverse(); }
 double determinant(const MatrixXd& A) { return A.determinant(); }

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "linear/blas.h"
+
 namespace holomorph::linear {
 
 /// A = L L^H of a Hermitian positive definite matrix, real or complex; it reads the lower half of A alone.
@@ -44,13 +46,14 @@ bool is_positive(const Eigen::MatrixXd& A);
 Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& A);
 /// The eigenvectors of a symmetric matrix by columns, ascending by eigenvalue.
 Eigen::Matrix3d eigenvectors(const Eigen::Matrix3d& A);
+/// Whether B - A is positive definite: x A x < x B x for all x.
+bool is_below(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 /// The largest x A x / x B x of symmetric matrices; none if B is not positive definite.
 std::optional<double> greatest_quotient(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 /// The symmetric root of a symmetric matrix; none if it is not positive definite.
 std::optional<Eigen::MatrixXd> square_root(const Eigen::MatrixXd& A);
 
-/// A^-1 B, A^-1 and det A by LU with row pivots. @pre A is square and regular
-Eigen::MatrixXd solve(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+/// A^-1 and det A by LU with row pivots. @pre A is square and regular
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& A);
 Eigen::MatrixXcd inverse(const Eigen::MatrixXcd& A);
 double determinant(const Eigen::MatrixXd& A);

@@ -46,9 +46,10 @@ CertainGram certain_gram(std::vector<MatrixXd> gram, const std::vector<MatrixXd>
   std::vector<MatrixXd> certain = gram;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     // The largest x E x / x G x: the relative change by rounding of the energy of any combination of forms.
-    const double most = linear::greatest_quotient(errors[i], gram[i]).value_or(1);
-    if (!(most <= kMostUncertain))
+    if (!linear::is_below(errors[i], kMostUncertain * gram[i])) {
+      const double most = linear::greatest_quotient(errors[i], gram[i]).value_or(1);
       refuse("rounding may change the energies of harmonic forms by", most, kMostUncertain);
+    }
     certain[i] += errors[i];
   }
   return {std::move(gram), std::move(certain)};
@@ -70,17 +71,21 @@ void require_ordered(const MatrixXd& lower, const MatrixXd& upper, double allowe
   if (lower.size() == 0) return;
   if (!lower.allFinite() || !upper.allFinite())
     throw SolverError("the bounds of the conformal invariants are not finite");
+  MatrixXd allowed_lower = lower;
+  allowed_lower.diagonal().array() -= allowed * upper.norm();
+  if (linear::is_below(allowed_lower, upper)) return;
   // lower <= upper if and only if the difference has no negative eigenvalue. The most negative one tells by how much
   // they cross.
   const double crossing = -linear::eigenvalues(upper - lower).minCoeff() / upper.norm();
   if (!(crossing <= allowed)) refuse("the bounds of the conformal invariants cross by", crossing, allowed);
 }
 
-Invariants invariants(const Topology& topology, CertainGram energies) {
+Invariants invariants(const Topology& topology, CertainGram energies, Execution& execution) {
   const auto& [gram, certain] = energies;
-  auto holomorphic = topology.families.dirichlet > 0
-                         ? conformal::bounded_basis(gram, certain, topology.pairing, topology.type.genus)
-                         : conformal::closed_basis(gram[0], certain[0], topology.pairing, topology.canonical);
+  auto holomorphic =
+      topology.families.dirichlet > 0
+          ? conformal::bounded_basis(gram, certain, topology.pairing, topology.type.genus, execution)
+          : conformal::closed_basis(gram[0], certain[0], topology.pairing, topology.canonical, execution);
   return {std::move(energies), std::move(holomorphic)};
 }
 
@@ -94,7 +99,7 @@ HarmonicForms measured(const mesh::Surface& surface, const Topology& topology,
   const forms::ClosedForms forms{classes, functions};
   execution.part(0, 0.3);
   auto energies = certain_energies(discretisation, forms, sizes(topology.families), execution);
-  execution.part(0.3, 1);
+  execution.part(0.3, 0.6);
   HarmonicForms result;
   Certificate& certificate = result.certificate;
   certificate.metric = discretisation.metric_error;
@@ -104,7 +109,8 @@ HarmonicForms measured(const mesh::Surface& surface, const Topology& topology,
   // Loops and classes belong to the surface's own edges; functions at the vertices serve any triangulation.
   add_loop_indicators(topology, functions);
   certificate.periods = forms::period_residual(surface, {topology.classes, functions}, topology.homology_basis);
-  result.invariants = invariants(topology, std::move(energies));
+  execution.part(0.6, 1);
+  result.invariants = invariants(topology, std::move(energies), execution);
   result.functions = std::make_shared<const forms::RowMajorMatrix>(std::move(functions));
   return result;
 }

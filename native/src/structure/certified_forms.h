@@ -59,8 +59,8 @@ struct Invariants {
   conformal::HolomorphicBasis holomorphic;  ///< star, holomorphic basis and period matrix (Eq. 13) with its bounds
 };
 
-/// @throws SolverError
-Invariants invariants(const Topology& topology, CertainGram energies);
+/// @throws SolverError, Cancelled
+Invariants invariants(const Topology& topology, CertainGram energies, Execution& execution);
 
 /// The harmonic forms eta_j + d f_j of a surface, measured.
 struct HarmonicForms {

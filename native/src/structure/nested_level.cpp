@@ -126,7 +126,8 @@ CertainGram measure(const mesh::Surface& surface, const SideClasses& sides, int 
 
 Structure narrowed(Structure structure, CertainGram energies, double metric) {
   auto& harmonic = structure.harmonic;
-  harmonic.invariants = invariants(structure.topology, std::move(energies));
+  Execution execution(1);
+  harmonic.invariants = invariants(structure.topology, std::move(energies), execution);
   harmonic.certificate.metric = metric;
   // The differentials follow from the period matrix, which the finer energies have changed.
   structure.differentials = structure.holomorphic().differentials;

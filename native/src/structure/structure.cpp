@@ -53,7 +53,7 @@ HarmonicForms streamed_forms(const mesh::Surface& surface, const Topology& topol
   solver.solve_in_blocks(classes, n, execution, measure);
   // G is symmetric if the systems are solved exactly. The difference shows their residuals.
   certificate.asymmetry = (G - G.transpose()).cwiseAbs().maxCoeff() / G.cwiseAbs().maxCoeff();
-  result.invariants = invariants(topology, certain_gram({(G + G.transpose()) / 2}, uncertain));
+  result.invariants = invariants(topology, certain_gram({(G + G.transpose()) / 2}, uncertain), execution);
   return result;
 }
 

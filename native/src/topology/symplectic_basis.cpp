@@ -25,6 +25,7 @@ class GramSchmidt {
 
   IntegerMatrix run() {
     for (Eigen::Index k = 0; k < n_; k += 2) {
+      pair_ = k;
       make_pair(k);
       for (Eigen::Index i = k + 2; i < n_; ++i) {
         const std::int64_t with_e = W_(i, k), with_f = W_(i, k + 1);
@@ -68,9 +69,12 @@ class GramSchmidt {
   void subtract(Eigen::Index i, std::int64_t factor, Eigen::Index j) {
     if (factor == 0) return;
     for (Eigen::Index c = 0; c < n_; ++c) rows_(i, c) = checked_subtract_product(rows_(i, c), factor, rows_(j, c));
-    // Rows, then columns: W stays the matrix of the products S_i W S_j^T.
-    for (Eigen::Index c = 0; c < n_; ++c) W_(i, c) = checked_subtract_product(W_(i, c), factor, W_(j, c));
-    for (Eigen::Index c = 0; c < n_; ++c) W_(c, i) = checked_subtract_product(W_(c, i), factor, W_(c, j));
+    // W stays the matrix of the products S_i W S_j^T, antisymmetric. Pairs before `pair_` are orthogonal to all rows.
+    for (Eigen::Index c = pair_; c < n_; ++c) {
+      if (W_(j, c) == 0 || c == i) continue;
+      W_(i, c) = checked_subtract_product(W_(i, c), factor, W_(j, c));
+      W_(c, i) = -W_(i, c);
+    }
   }
 
   void swap(Eigen::Index i, Eigen::Index j) {
@@ -86,11 +90,22 @@ class GramSchmidt {
     W_.col(i) *= -1;
   }
 
-  Eigen::Index n_;
+  Eigen::Index n_, pair_ = 0;
   IntegerMatrix rows_, W_;
 };
 
 }  // namespace
+
+IntegerMatrix product(const IntegerMatrix& A, const IntegerMatrix& B) {
+  IntegerMatrix C = IntegerMatrix::Zero(A.rows(), B.cols());
+  for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    for (Eigen::Index k = 0; k < A.cols(); ++k) {
+      if (A(i, k) == 0) continue;
+      for (Eigen::Index j = 0; j < B.cols(); ++j) C(i, j) = checked_subtract_product(C(i, j), -A(i, k), B(k, j));
+    }
+  }
+  return C;
+}
 
 IntegerMatrix symplectic_basis(const IntegerMatrix& W) { return GramSchmidt(W).run(); }
 
@@ -101,8 +116,8 @@ CanonicalBasis canonical_basis(const IntegerMatrix& W) {
   const IntegerMatrix& S = basis.classes;
   IntegerMatrix JS(2 * g, 2 * g);
   JS << S.bottomRows(g), -S.topRows(g);
-  basis.intersection = S.transpose() * JS;  // -W^-1 = S^T J S, because S W S^T = J
-  basis.cycles = -JS * W;                   // S^-T = -J S W, likewise
+  basis.intersection = product(S.transpose(), JS);  // -W^-1 = S^T J S, because S W S^T = J
+  basis.cycles = product(-JS, W);                   // S^-T = -J S W, likewise
   return basis;
 }
 

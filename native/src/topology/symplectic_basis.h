@@ -8,6 +8,10 @@ namespace holomorph::topology {
 
 using IntegerMatrix = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// A B. Its cost is in proportion to the numbers of A other than 0.
+/// @throws holomorph::Error if an entry leaves 64 bits
+IntegerMatrix product(const IntegerMatrix& A, const IntegerMatrix& B);
+
 /// Computes integer S with S W S^T = J = [[0, I], [-I, 0]], |det S| = 1, by symplectic Gram-Schmidt. Its rows are a
 /// canonical basis.
 /// @param W antisymmetric, |det| 1. @throws holomorph::Error if an entry leaves 64 bits

@@ -4,6 +4,7 @@
 #include <complex>
 #include <numeric>
 
+#include "linear/blas.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/triangle_tree.h"
 #include "uv/minimise.h"
@@ -157,10 +158,37 @@ VectorXd as_unknowns(const VectorXcd& c, Coefficients kind) {
 }
 
 DensityObjective::DensityObjective(const SampledParts& parts, Coefficients kind)
-    : M_(on_unknowns(parts.M, kind)), N_(on_unknowns(parts.N, kind)) {}
+    : M_(on_unknowns(parts.M, kind)),
+      N_(on_unknowns(parts.N, kind)),
+      are_many_(parts.M.cols() > linear::kSmall),
+      columns_(kind == Coefficients::complex ? 2 : 1) {
+  if (!are_many_) return;
+  // (P + iQ) (x + iy) from [P; Q] [x, y]: half of what is read from memory.
+  for (MatrixXd* M : {&M_, &N_}) *M = M->leftCols(parts.M.cols()).eval();
+}
+
+VectorXd DensityObjective::parts(const MatrixXd& M, const VectorXd& x) const {
+  if (!are_many_) return M * x;
+  const Eigen::Index half = M.rows() / 2;
+  const MatrixXd products = linear::thin_product(M, Eigen::Map<const MatrixXd>(x.data(), M.cols(), columns_));
+  VectorXd result = products.col(0);
+  if (columns_ == 1) return result;
+  result.head(half) -= products.col(1).tail(half);
+  result.tail(half) += products.col(1).head(half);
+  return result;
+}
+
+VectorXd DensityObjective::transposed(const MatrixXd& M, const VectorXd& w) const {
+  if (!are_many_) return M.transpose() * w;
+  const Eigen::Index half = M.rows() / 2;
+  MatrixXd both(M.rows(), columns_);
+  both.col(0) = w;
+  if (columns_ == 2) both.col(1) << w.tail(half), -w.head(half);
+  return linear::thin_transposed_product(M, both).reshaped();
+}
 
 double DensityObjective::operator()(const VectorXd& x, VectorXd& gradient) const {
-  const VectorXd A = M_ * x;
+  const VectorXd A = parts(M_, x);
   const Eigen::ArrayXd q = squares(A);
   const double mean = q.mean(), count = static_cast<double>(q.size());
   // The floor keeps the logarithm finite at zeros of the form, where q = 0. Divided by the mean, q is independent of
@@ -172,17 +200,17 @@ double DensityObjective::operator()(const VectorXd& x, VectorXd& gradient) const
   Eigen::ArrayXd by_q = 2 * deviation * inverse;
   gradient.setZero(x.size());
   if (N_.rows() > 0) {
-    const VectorXd B = N_ * x;
+    const VectorXd B = parts(N_, x);
     const Eigen::ArrayXd b = squares(B), sum = 1 / (q + b + floor_ * mean), r = b * sum;
     // r = b / (q + b + floor mean): its derivatives by q, by b, and through the mean.
     value += kDistortion * r.mean();
     through_mean -= kDistortion * floor_ * (r * sum).mean();
     by_q -= kDistortion * r * sum;
     const Eigen::ArrayXd by_b = kDistortion * (1 - r) * sum / count;
-    gradient.noalias() += 2 * (N_.transpose() * weighted(by_b, B));
+    gradient += 2 * transposed(N_, weighted(by_b, B));
   }
   by_q = (by_q + through_mean) / count;
-  gradient.noalias() += 2 * (M_.transpose() * weighted(by_q, A));
+  gradient += 2 * transposed(M_, weighted(by_q, A));
   return value;
 }
 

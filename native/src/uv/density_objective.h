@@ -52,7 +52,13 @@ class DensityObjective {
   double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const;
 
  private:
-  Eigen::MatrixXd M_, N_;  // real parts of A and B above imaginary ones, of each unknown
+  Eigen::VectorXd parts(const Eigen::MatrixXd& M, const Eigen::VectorXd& x) const;
+  Eigen::VectorXd transposed(const Eigen::MatrixXd& M, const Eigen::VectorXd& w) const;
+
+  // Real parts of A and B above imaginary ones, of each unknown; where these are many, of the coefficients alone.
+  Eigen::MatrixXd M_, N_;
+  bool are_many_;
+  Eigen::Index columns_;  // of the unknowns, a row for each coefficient: real and imaginary parts
   double floor_ = 0;
 };
 

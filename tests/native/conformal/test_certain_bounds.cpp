@@ -12,6 +12,7 @@ namespace holomorph::conformal {
 namespace {
 
 using Eigen::MatrixXd;
+Execution execution{1};
 using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 double least_eigenvalue(const Wide& A) {
@@ -49,6 +50,21 @@ TEST_P(CertainBounds, InversesAreNotBelow) {
   EXPECT_LT((exact - below.cast<long double>()).norm(), 1e-6 * exact.norm());
 }
 
+TEST_P(CertainBounds, LargeMatricesHaveTheSameBounds) {
+  std::mt19937 random(GetParam());
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const MatrixXd A = positive(40, GetParam() % 5, GetParam());
+  MatrixXd T = MatrixXd::NullaryExpr(40, 40, [&] { return uniform(random); });
+  if (GetParam() % 2 == 1) T = (T.array().abs() < 0.95).select(0, T);  // few numbers other than 0
+  const Wide wide = T.cast<long double>();
+  const Wide above = above_congruent(T, A).cast<long double>() - wide * A.cast<long double>() * wide.transpose();
+  EXPECT_GE(least_eigenvalue(above), 0);
+  EXPECT_LT(above.norm(), 1e-11 * A.norm());
+  const Wide below = A.cast<long double>().inverse() - below_inverse(A).cast<long double>();
+  EXPECT_GT(least_eigenvalue(below), 0);
+  EXPECT_LT(below.norm(), 1e-6 * A.cast<long double>().inverse().norm());
+}
+
 TEST_P(CertainBounds, PeriodsHoldThoseOfEverySmallerGramMatrix) {
   // G_exact is symplectic and below G: its own bounds meet.
   const MatrixXd Y = positive(3, 1, GetParam() + 50), Yi = Y.inverse();
@@ -59,7 +75,7 @@ TEST_P(CertainBounds, PeriodsHoldThoseOfEverySmallerGramMatrix) {
   MatrixXd exact(6, 6);
   exact << Y + X * Yi * X, -X * Yi, -Yi * X, Yi;
   for (const double part : {1e-9, 1e-4, 1e-1}) {
-    const PeriodBounds bounds = period_bounds(exact + part * exact.trace() / 6 * G / G.trace());
+    const PeriodBounds bounds = period_bounds(exact + part * exact.trace() / 6 * G / G.trace(), execution);
     EXPECT_GT(least_eigenvalue((Y - bounds.lower).cast<long double>()), 0);
     EXPECT_GT(least_eigenvalue((bounds.upper - Y).cast<long double>()), 0);
     EXPECT_TRUE((bounds.real_lower.array() <= X.array()).all());
@@ -125,7 +141,7 @@ TEST(ExactCertainBounds, InversesOfNumbers) {
 TEST(ExactCertainBounds, ImaginaryPartsWithoutAnyOtherError) {
   for (unsigned seed = 0; seed < 1000; ++seed) {
     const MatrixXd G = positive(2, 1, seed);
-    const PeriodBounds bounds = period_bounds(G);
+    const PeriodBounds bounds = period_bounds(G, execution);
     const mpq_class a(G(0, 0)), b(G(0, 1)), c(G(1, 1));
     EXPECT_GE(mpq_class(bounds.upper.value()), mpq_class(a - b * b / c));
     EXPECT_LE(mpq_class(bounds.lower.value()) * c, 1);
@@ -140,7 +156,7 @@ TEST(ExactCertainBounds, RealParts) {
     const double x = uniform(random), y = 1.5 + uniform(random);
     const Eigen::Vector2d v(uniform(random), uniform(random));
     const MatrixXd exact{{y + x * x / y, -x / y}, {-x / y, 1 / y}};  // symplectic, of the period x + i y
-    const PeriodBounds bounds = period_bounds(exact + 1e-4 * v * v.transpose());
+    const PeriodBounds bounds = period_bounds(exact + 1e-4 * v * v.transpose(), execution);
     const double lower = bounds.real_lower.value(), upper = bounds.real_upper.value();
     most = std::max(most, std::abs(x - (lower + upper) / 2) / ((upper - lower) / 2));
   }

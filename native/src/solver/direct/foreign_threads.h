@@ -1,20 +1,9 @@
-// The threads of the libraries that factorise: BLAS's and OpenMP's.
+// The OpenMP threads of the libraries that factorise.
 #pragma once
 
 #include <future>
 
 namespace holomorph::solver {
-
-/// While an instance is alive, BLAS runs on one thread, so that the bits do not depend on the number of threads. That
-/// number belongs to the process: the destructor of the last instance restores it.
-class OneBlasThread {
- public:
-  /// @throws std::bad_alloc where BLAS would wait for memory for ever
-  OneBlasThread();
-  ~OneBlasThread();
-  OneBlasThread(const OneBlasThread&) = delete;
-  OneBlasThread& operator=(const OneBlasThread&) = delete;
-};
 
 /// Whether this process was made by fork after the library was loaded.
 bool is_forked();

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "base/errors.h"
+#include "linear/blas.h"
 #include "solver/direct/foreign_threads.h"
 
 #ifdef HOLOMORPH_WITH_CHOLMOD
@@ -160,7 +161,7 @@ struct SparseCholesky::Factor {
 #endif
 
 void SparseCholesky::compute(const Lower& lower, std::vector<char> fixed) {
-  const OneBlasThread one_thread;
+  const linear::OneBlasThread one_thread;
   fixed_ = std::move(fixed);
   others_.clear();
   factor_of_others_.reset();
@@ -185,12 +186,12 @@ void SparseCholesky::factorise(const Lower& lower) {
 }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& B) {
-  const OneBlasThread one_thread;
+  const linear::OneBlasThread one_thread;
   return B.rows() == 0 ? B : on_sound_thread([&] { return factor_->solve(B); });
 }
 
 Eigen::MatrixXd SparseCholesky::solve_fixed(const Eigen::MatrixXd& B) {
-  const OneBlasThread one_thread;
+  const linear::OneBlasThread one_thread;
   if (B.rows() == 0) return B;
   if (!factor_of_others_) return on_sound_thread([&] { return factor_->solve_fixed(B, fixed_); });
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
