@@ -47,4 +47,26 @@ def ribbon(n):
     return np.vstack(coil), [[i, i + 1, n + 2 + i, n + 1 + i] for i in range(n)]
 
 
-SHAPES = {shape.__name__: shape for shape in (fan, spiral, stairs, soup, star, ribbon)}
+def plate(n):
+    """A grille: a plate with about n / 16 square holes."""
+    holes = round((n / 16) ** 0.5)
+    side = 3 * holes + 1
+    places = np.arange(side)
+    points = np.stack(np.meshgrid(places, places, indexing="ij"), axis=-1).reshape(-1, 2)
+    i, j = (each.ravel() for each in np.meshgrid(places[:-1], places[:-1], indexing="ij"))
+    i, j = np.stack([i, j])[:, (i % 3 != 1) | (j % 3 != 1)]
+    corners = (i * side + j, (i + 1) * side + j, (i + 1) * side + j + 1, i * side + j + 1)
+    return np.column_stack([points, 0.05 * np.sin(points[:, 0])]), np.stack(corners, axis=1).tolist()
+
+
+def latin(n):
+    """The triangles of a Latin square, about n: a closed surface with half as many forms as triangles."""
+    m = round((n / 2) ** 0.5)
+    rows, columns = (each.ravel() for each in np.meshgrid(np.arange(m), np.arange(m), indexing="ij"))
+    sums = 2 * m + (rows + columns) % m
+    back = np.stack([m + columns, rows, 2 * m + (rows + columns + 1) % m], axis=1)
+    faces = np.concatenate([np.stack([rows, m + columns, sums], axis=1), back])
+    return np.random.default_rng(0).random((3 * m, 3)), faces.tolist()
+
+
+SHAPES = {shape.__name__: shape for shape in (fan, spiral, stairs, soup, star, ribbon, plate, latin)}

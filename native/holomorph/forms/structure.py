@@ -46,8 +46,9 @@ def conformal_structure(
         surface; None for one at every factor of four in faces from about 500 on. With none of them, [], its conjugate
         gradients begin at zero on the surface itself: what the paper compares with
     threads : number of threads, None for one per core; the result has the same bits for any number
-    memory_limit : bytes that may be in use at once, without the surface itself; None refuses nothing. Where the forms
-        of a closed surface do not fit (None: in 2 GB), they are solved for in blocks, and `uv` solves for each map
+    memory_limit : bytes that may be in use at once, without the surface itself; None refuses nothing but thousands of
+        forms on a small mesh, beyond 1 GB and 100 kB for each vertex. Where the forms of a closed surface do not fit
+        (None: in 2 GB), they are solved for in blocks, and `uv` solves for each map
     bounds : relative width that the bounds of the period matrix (capacities, modulus) are to have, such as 1e-4. The
         surface is then refined inside, by intrinsic triangles where its bounds lose most, until they are as narrow or
         `most_faces` would be exceeded; the result's `refinement` tells. UVs and forms remain those of the surface's own

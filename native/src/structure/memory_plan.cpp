@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/errors.h"
 #include "solver/direct/direct_solver.h"
@@ -67,8 +68,19 @@ double forms_bytes(const Extent& extent) {
   return (8 + kPerColumn) * static_cast<double>(extent.vertices) * static_cast<double>(extent.forms);
 }
 
+// Beyond both, a computation without a limit is refused: a small mesh with thousands of loops.
+constexpr double kMostBytes = 1e9, kMostPerVertex = 1e5;
+
 std::string solving_for(const Extent& extent) {
   return "solving for " + std::to_string(extent.forms) + " forms on " + std::to_string(extent.vertices) + " vertices";
+}
+
+MemoryPlan checked(MemoryPlan plan, const Extent& extent, const Options& options) {
+  const auto bytes = static_cast<double>(plan.bytes);
+  if (options.memory_limit > 0 || bytes <= std::max(kMostBytes, kMostPerVertex * static_cast<double>(extent.vertices)))
+    return plan;
+  throw SolverError(solving_for(extent) + " may take " + std::to_string(plan.bytes) +
+                    " bytes; set memory_limit to as many if they may be used");
 }
 
 }  // namespace
@@ -83,7 +95,7 @@ MemoryPlan plan_memory(const Extent& extent, const Options& options, Keeping kee
     plan.block = static_cast<int>(extent.forms);
     plan.bytes = static_cast<std::int64_t>(fixed_bytes(plan.choice.method, extent) + forms_bytes(extent));
     require_memory(solving_for(extent), plan.bytes, memory_limit);
-    return plan;
+    return checked(std::move(plan), extent, options);
   }
   plan.choice = choice_that_fits(extent, solver, 2 * column, memory_limit);
   // A complex combination of forms is two right-hand sides.
@@ -106,7 +118,7 @@ MemoryPlan plan_memory(const Extent& extent, const Options& options, Keeping kee
   // If one block has all forms, its functions are the ones that are kept: they count once.
   const double others = plan.keep_forms && plan.block < extent.forms ? kept : 0;
   plan.bytes = static_cast<std::int64_t>(fixed + others + plan.block * column);
-  return plan;
+  return checked(std::move(plan), extent, options);
 }
 
 MemoryPlan plan_memory(const mesh::Surface& surface, const mesh::TopologicalType& type, const Options& options,

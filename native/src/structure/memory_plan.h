@@ -33,9 +33,10 @@ struct MemoryPlan {
 /// Whether a computation can do with a few forms at a time.
 enum class Keeping { all, as_many_as_fit };
 
-/// Plans a computation. Without a limit the forms are kept up to kKeptBytes of functions, and nothing is refused. With
-/// one they are kept where all fits, otherwise solved for in blocks of the largest size that fits. The direct solver,
-/// where it was not asked for by name, gives way to multigrid if its factor does not fit.
+/// Plans a computation. Without a limit the forms are kept up to kKeptBytes of functions, and nothing is refused but
+/// thousands of forms on a small mesh, beyond 1 GB and 100 kB for each vertex. With a limit they are kept where all
+/// fits, otherwise solved for in blocks of the largest size that fits. The direct solver, where it was not asked for by
+/// name, gives way to multigrid if its factor does not fit.
 /// @throws SolverError if not even two right-hand sides fit, or not all where all must be kept, naming the bytes
 MemoryPlan plan_memory(const Extent& extent, const Options& options, Keeping keeping);
 

@@ -6,11 +6,12 @@ import sys
 from functools import cache
 from pathlib import Path
 
+import costly
 import families
 import numpy as np
 import pytest
 from forms import determinant
-from holomorph import ProgressiveMesh, SolverError, Surface, conformal_structure
+from holomorph import Cancelled, ProgressiveMesh, SolverError, Surface, conformal_structure
 from solved import CLOSED, FLAT, solved, surface_of
 
 SOLVER = 1e-8  # relative residual that a result may have
@@ -263,3 +264,13 @@ def test_surfaces_with_boundary_keep_all_forms_or_are_refused():
     conformal_structure(surface, memory_limit=least)
     with pytest.raises(SolverError, match="would take"):
         conformal_structure(surface, memory_limit=least - 1)
+
+
+@pytest.mark.parametrize("make", [costly.plate, costly.latin])
+def test_thousands_of_forms_on_a_small_mesh_are_refused_unless_they_are_allowed(make):
+    surface = Surface(*make(16_000 if make is costly.plate else 4000))
+    with pytest.raises(SolverError, match=r"may take \d+ bytes; set memory_limit") as refusal:
+        conformal_structure(surface)
+    allowed = float(re.search(r"may take (\d+) bytes", str(refusal.value))[1])
+    with pytest.raises(Cancelled):
+        conformal_structure(surface, memory_limit=allowed, progress=lambda fraction, stage: stage == "half-edges")
