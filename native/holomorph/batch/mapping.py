@@ -9,6 +9,7 @@ from .._native import Error, TopologyError
 from ..maps import arrangement
 from ..maps.automatic_map import automatic_maps
 from ..maps.automatic_structure import automatic_structure
+from ..maps.late_structure import late_structure
 from ..maps.map import Map
 from ..maps.report import part_report, refused_report, skipped_report
 from ..mesh.origin import on_part
@@ -84,7 +85,9 @@ def _solve(part, maps, cut_edges, threads):
     chosen = _choices(part.surface, maps, cut_edges if maps.cut_at_seams else None)
     options = {"solver": maps.solver, "thresholds": maps.thresholds}
     options |= {"threads": threads, "memory_limit": maps.memory_limit}
-    part.structure = automatic_structure(part.surface, **chosen, **options)
+    is_plain = not any(len(value) for value in chosen.values()) and maps.solver == "auto" and not maps.memory_limit
+    late = late_structure(part.surface, threads) if is_plain else None
+    part.structure = late or automatic_structure(part.surface, **chosen, **options)
     part.is_chosen = maps.solver == "paper" or any(len(value) for value in chosen.values())
 
 

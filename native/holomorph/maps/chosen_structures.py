@@ -20,6 +20,7 @@ from ..cutting.disk_islands import disk_islands
 from ..mesh.edges import boundary_edges, edge_keys, polygon_sides
 from ..mesh.surface import Surface
 from .automatic_structure import AnyStructure, automatic_structure
+from .late_structure import late_structure
 
 AUTOMATIC, POLES, RECTANGLE, NONE = "AUTOMATIC", "POLES", "RECTANGLE", "NONE"  # what chosen vertices are
 CORNERS = 4
@@ -200,6 +201,8 @@ def _made(part, surface, vertices, keywords, note, progress):
         keywords = _in_part(keywords, part)
     elif names_vertices:  # the part's faces with all vertices of the mesh: then its indices are theirs
         target = Surface.from_polygons(vertices, part.vertex_index[part.corner_vertices], part.face_offsets)
+    if keywords == {"solver": "auto"} and (late := late_structure(part)):
+        return PartStructure(part, replace(late, surface=surface), note=note)
     structure = automatic_structure(target, **keywords, progress=scaled(progress, 0.0, UV_START))
     structure.prepare_uv(scaled(progress, UV_START, 1.0))
     structure = replace(structure, surface=surface)  # so do its results

@@ -13,6 +13,7 @@ from ..mesh.checks import checked_evenness
 from ..quality.appearance import of_squares
 from ..tiling.turned import LATTICE
 from .automatic_structure import automatic_structure
+from .late_structure import LateStructure, late_structure
 from .map import Map, form_map
 from .piece_search import EXACT, PieceSearch
 from .request import MAIN_MAPS, Request
@@ -36,13 +37,28 @@ class MapSearch:
             raise ValueError(f"main is {quoted(request.main)}; one of {', '.join(MAIN_MAPS)} is needed")
         checked_evenness(request.evenness)
         surface, self._request, self._threads = request.surface, request, threads
-        structure = request.structure or automatic_structure(surface, threads=threads, progress=progress)
+        structure = request.structure or late_structure(surface, threads)
+        self.final: Map | None = None
+        if isinstance(structure, LateStructure):
+            self.final = self._instead(structure, progress)
+            if self.final:
+                return
+            structure = structure.made
+        structure = structure or automatic_structure(surface, threads=threads, progress=progress)
         self._structure = structure
         self._tilings = TilingSearch(surface, structure, request)
         self._untiled = Untiled(surface, structure, request.evenness, request.is_upright, threads)
         self._pieces: PieceSearch | None = None
         self._flat: Map | None = None
         self.final = self._final(scaled(progress, 1.0, 1.0))
+
+    def _instead(self, structure, progress):
+        """The islands of a part whose forms would take too long, where these are not asked for."""
+        asked = self._request
+        if asked.main not in ("automatic", "untiled") or not isinstance(asked.poles, str):
+            return None
+        untiled = Untiled(asked.surface, structure, asked.evenness, asked.is_upright, self._threads)
+        return untiled.instead(structure.description, progress)
 
     def _final(self, progress):
         """The map where no other is tried."""

@@ -16,6 +16,7 @@ from ..forms.form_structure import CertifiedStructure
 from ..quality.quality import Quality
 from ..quality.verdicts import Seen, Verdict, baking, total_cost, verdict
 from .arrangement import Arrangement, square
+from .late_structure import LateStructure
 
 if TYPE_CHECKING:
     from ..mesh.repairs import Refused, Repairs
@@ -78,6 +79,9 @@ def part_report(made: Map) -> dict[str, Any]:
     about = {"kind": made.kind, "why": made.why, "evenness": made.evenness}
     about["worst_places"] = {name: place._asdict() for name, place in made.worst_places.items()}
     main_map = map_report(made.coefficients, made.quality, made.verdict) | about
+    if isinstance(made.structure, LateStructure):
+        about = {"done": True, **_topology(made.surface), "description": made.structure.description}
+        return plain(about | {"forms": 0, "main_map": main_map})
     entry = component_report(made.surface, made.structure, main_map)
     entry["forms"] = made.structure.form_count
     if made.mixed:

@@ -71,6 +71,11 @@ class Untiled:
         flat = self._asked(lambda search: search.best(most, work, scaled(progress, 1.0, 1.0)))
         return flat and self._map(flat)
 
+    def instead(self, why: str, progress: Progress | None) -> Map | None:
+        """The islands, however long they take, where no other map is tried."""
+        flat = self._asked(lambda search: search.best(math.inf, math.inf, scaled(progress, 1.0, 1.0)))
+        return flat and self._map(flat, f"it has {why}; {_how(flat)}")
+
     def balanced(self, most: float, why: str, progress: Progress | None) -> Map | None:
         """The balanced map, if it costs less than `most`. It is evened only where that may bring it there."""
         least = self.conformal.cost
@@ -95,10 +100,7 @@ class Untiled:
         return form_map(self.surface, self._structure, why=why, **options)
 
     def _map(self, flat, why=""):
-        where = "hard edges" if flat.soft_length <= MOST_SOFT else "seams"
-        what = "in one piece" if not len(flat.seams) else f"along its {where} into {counted(flat.count, 'piece')}"
-        why = why or f"it flattens {what}: size range {flat.quality.size_range:.3g}"
-        return Map(self.surface, self._structure, flat.uv, flat.quality, np.empty(0), why, islands=flat)
+        return Map(self.surface, self._structure, flat.uv, flat.quality, np.empty(0), why or _how(flat), islands=flat)
 
     def _asked(self, ask):
         try:
@@ -117,3 +119,10 @@ class Untiled:
     def _work(self):
         count = len(self.surface.triangles)
         return LEAST_WORK + BUDGET * (PLACED * min(count, LEVEL) + ROUNDED * count)
+
+
+def _how(flat):
+    """How it is flattened, in one sentence."""
+    where = "hard edges" if flat.soft_length <= MOST_SOFT else "seams"
+    what = "in one piece" if not len(flat.seams) else f"along its {where} into {counted(flat.count, 'piece')}"
+    return f"it flattens {what}: size range {flat.quality.size_range:.3g}"
