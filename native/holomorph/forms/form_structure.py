@@ -164,15 +164,13 @@ class FormStructure(Structure):
         """How many `holomorphic_forms` there are."""
         return self._differentials.shape[1]
 
-    def balanced_coefficients(self) -> Complexes:
+    def balanced_coefficients(self, progress: Progress | None = None) -> Complexes:
         """(n,) coefficients of the combination whose texture density is most even (least variance of its logarithm over
-        the surface's area), scaled so that the UV area of the surface is 1."""
-        return self._balanced
-
-    @cached_property
-    def _balanced(self):
-        c = self._native.balanced_coefficients()
-        return arrays.frozen(c.real.copy() if self.coefficient_type is np.float64 else c)
+        the surface's area), scaled so that the UV area of the surface is 1; `progress` as in `conformal_structure`."""
+        if "_balanced" not in vars(self):
+            c = self._native.balanced_coefficients(progress)
+            vars(self)["_balanced"] = arrays.frozen(c.real.copy() if self.coefficient_type is np.float64 else c)
+        return vars(self)["_balanced"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

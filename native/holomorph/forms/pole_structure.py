@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..core import arrays
-from ..core.array_types import Complexes, Integers, Reals
+from ..core.array_types import Complexes, Integers, Progress, Reals
 from ..core.value import plain
 from .form_structure import FormStructure
 
@@ -54,7 +54,7 @@ class PoleStructure(FormStructure):
         """(k,) complex residues: by how much the UVs change around each pole, counter-clockwise."""
         return self._native.residues()
 
-    def balanced_coefficients(self) -> Complexes:
+    def balanced_coefficients(self, progress: Progress | None = None) -> Complexes:
         """(n,) complex coefficients of theta_0 alone, which keeps its residues."""
         return arrays.frozen(np.eye(1, self._differentials.shape[1], dtype=np.complex128)[0])
 

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import Complexes, Integers, Progress, Reals
+from ..core.progress import scaled
 from ..core.value import Value
 from ..cutting.island_layout import Islands
 from ..forms.pole_structure import PoleStructure
@@ -248,7 +249,7 @@ def form_map(
         and so do straight and round boundaries
     upright : turn the map until v runs up, as far as one turn can do that: by half turns and quarters where its
         boundary is straight
-    progress : of evening, as in `conformal_structure`
+    progress : as in `conformal_structure`
 
     Raises ValueError for an evenness outside 0 to 1; SolverError; Cancelled.
     Source: Gu, Wang, Yau (2003), § 7, for combinations; evening is ours, docs/method/evening.md.
@@ -261,8 +262,9 @@ def form_map(
     forms
     """
     evenness = checked_evenness(evenness)
+    structure.prepare_uv(scaled(progress, 0.0, 0.2))
     if coefficients is None:
-        coefficients = structure.balanced_coefficients()
+        coefficients = structure.balanced_coefficients(scaled(progress, 0.2, 0.6))
     uv = structure.uv(coefficients)
     turn = _turn_upright(surface, structure, uv) if upright else 1.0
     if turn != 1:
@@ -270,7 +272,7 @@ def form_map(
         uv = structure.uv(coefficients)
     quality = structure.quality(uv)
     if evenness > 0:
-        uv = evened_uv(structure, coefficients, uv, quality, evenness, progress)
+        uv = evened_uv(structure, coefficients, uv, quality, evenness, scaled(progress, 0.6, 1.0))
         quality = structure.quality(uv).evened_from(quality, evenness)
     if upright:
         uv = arrays.frozen(_turned(uv, turn)) if structure.form_count == 0 else uv

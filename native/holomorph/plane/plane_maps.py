@@ -45,7 +45,7 @@ class PlaneMap(Structure):
         """The same as `solver`."""
         return self.solver
 
-    def balanced_coefficients(self) -> Complexes:
+    def balanced_coefficients(self, progress: Progress | None = None) -> Complexes:
         """(0,): the map is fixed."""
         return arrays.frozen(np.empty(0, dtype=np.complex128))
 

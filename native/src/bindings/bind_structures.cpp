@@ -283,10 +283,11 @@ py::array basis_forms(Structure& s) {
   return read_only(std::move(values));
 }
 
-Eigen::VectorXcd balanced_coefficients(Structure& s) {
+Eigen::VectorXcd balanced_coefficients(Structure& s, const py::object& progress) {
   Eigen::VectorXcd c;
   s.with_forms(
-      [&](auto& forms, Execution& execution) { c = structure::balanced_coefficients(s.value, forms, execution); });
+      [&](auto& forms, Execution& execution) { c = structure::balanced_coefficients(s.value, forms, execution); },
+      callback(progress));
   return c;
 }
 
@@ -323,7 +324,7 @@ void bind_actions(py::class_<Structure, StructurePointer>& type) {
       .def("uv_solver", &uv_solver)
       .def("uv", &uv, py::arg("coefficients"))
       .def("basis_forms", &basis_forms)
-      .def("balanced_coefficients", &balanced_coefficients)
+      .def("balanced_coefficients", &balanced_coefficients, py::arg("progress"))
       .def("disk_map", &disk_map)
       .def("sphere_map", &sphere_map)
       .def("cut_along", &cut_along, py::arg("edges"), py::arg("labels"))

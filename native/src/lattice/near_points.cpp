@@ -11,12 +11,13 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kLargestInteger = 9007199254740992;  // 2^53
+constexpr std::int64_t kNodes = 2048;                 // between two calls of the tick: less than 10 ms
 
 // Coordinates of R z near y are chosen from the last to the first, as R is upper triangular.
 class Enumeration {
  public:
-  Enumeration(const ReducedBasis& reduced, VectorXd y, std::int64_t most_steps)
-      : R_(reduced.R), transform_(reduced.transform), y_(std::move(y)), most_steps_(most_steps) {
+  Enumeration(const ReducedBasis& reduced, VectorXd y, std::int64_t most_steps, const std::function<void()>& tick)
+      : R_(reduced.R), transform_(reduced.transform), y_(std::move(y)), most_steps_(most_steps), tick_(tick) {
     z_ = VectorXd::Zero(R_.cols());
   }
 
@@ -38,6 +39,7 @@ class Enumeration {
         result_.is_complete = false;
         return;
       }
+      if (tick_ && result_.steps % kNodes == 0) tick_();
       z_[k] = z;
       const double distance = (z - centre) * R_(k, k);
       visit(k - 1, std::max(0.0, left - distance * distance));
@@ -53,18 +55,19 @@ class Enumeration {
   const IntegerMatrix& transform_;
   VectorXd y_, z_;
   std::int64_t most_steps_;
+  const std::function<void()>& tick_;
   NearPoints result_;
 };
 
 }  // namespace
 
 NearPoints near_points(const ReducedBasis& reduced, const VectorXd& target, double squared_radius,
-                       std::int64_t most_steps) {
+                       std::int64_t most_steps, const std::function<void()>& tick) {
   const VectorXd y = reduced.Q.transpose() * target;
   // The distance from the span of the lattice is there whatever the point is.
   const double left = squared_radius - (target - reduced.Q * y).squaredNorm();
   if (!(left >= 0)) return {};
-  return Enumeration(reduced, y, most_steps).run(left);
+  return Enumeration(reduced, y, most_steps, tick).run(left);
 }
 
 }  // namespace holomorph::lattice

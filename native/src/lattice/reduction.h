@@ -20,6 +20,8 @@ struct ReducedBasis {
   int blocks = 1;           ///< that were reduced one by one; 1: the whole
 };
 
+inline constexpr double kDelta = 0.99;  ///< of Lovasz's condition, by default
+
 /// LLL reduction in floating-point arithmetic (Schnorr & Euchner 1994, doi:10.1007/BF01581144): |R_jk| <= R_jj / 2 for
 /// j < k, and delta R_k-1,k-1^2 <= R_k-1,k^2 + R_kk^2 (Lovasz's condition). Both hold to rounding: the first to some m
 /// epsilon |column k|, and 1e-9 R_jj.
@@ -30,7 +32,7 @@ struct ReducedBasis {
 /// @throw SolverError the transform has integers beyond 2^53, where doubles are no longer exact
 /// @param tick called for each step, O(m n); it may throw
 /// Cost: O(m n^2), and besides O(m n) for each exchange of two columns.
-ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = 0.99, const std::function<void()>& tick = {});
+ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = kDelta, const std::function<void()>& tick = {});
 
 /// Finds integers z such that B z is near the target: Q^T (target - B z) is within the box |y_j| <= R_jj / 2. So the
 /// square |target - B z|^2 is at most the sum of R_jj^2 / 4, besides the target's squared distance from the span of B.

@@ -30,7 +30,12 @@ constexpr std::size_t kMostListed = 20'000;
 class Search {
  public:
   Search(const PeriodLattice& a, const PeriodLattice& b, const SearchOptions& options, Execution& execution)
-      : a_(reduced(a)), b_(reduced(b)), options_(options), steps_left_(options.steps), execution_(execution) {
+      : options_(options),
+        steps_left_(options.steps),
+        execution_(execution),
+        tick_([this] { report(); }),
+        a_(reduced(a, tick_)),
+        b_(reduced(b, tick_)) {
     const double slack = options.slack + kRounding;
     // The slack is in logarithms of energies: it widens the bounds by a factor.
     upper_ = a_.lattice.upper * std::exp(slack);
@@ -49,13 +54,14 @@ class Search {
 
  private:
   Index size() const { return middle_.rows(); }
+  void report() { execution_.report(1 - static_cast<double>(steps_left_) / static_cast<double>(options_.steps)); }
 
   // Symmetric surfaces have few short vectors and many isometries: then rows are looked up. Where classes differ in
   // length by factors of thousands the list would not end, and each row has a search of its own.
   void list_short_vectors() {
     const double longest = b_.lattice.upper.diagonal().maxCoeff() * (1 + kRounding);
-    const auto found =
-        lattice::near_points(lattice::reduce(root_), VectorXd::Zero(size()), longest, options_.steps / kListPart);
+    const auto found = lattice::near_points(lattice::reduce(root_, lattice::kDelta, tick_), VectorXd::Zero(size()),
+                                            longest, options_.steps / kListPart, tick_);
     steps_left_ -= found.steps;
     if (!found.is_complete || found.integers.size() > kMostListed) return;
     short_.resize(static_cast<Index>(found.integers.size()), size());
@@ -82,7 +88,7 @@ class Search {
   // The short vectors with the products that row k needs.
   std::vector<IntegerVector> listed(Index k) {
     execution_.count(1);
-    execution_.report(1 - static_cast<double>(steps_left_) / static_cast<double>(options_.steps));
+    report();
     std::vector<IntegerVector> result;
     const auto goal = [&](Index j) { return (b_.lattice.upper(j, k) + b_.lattice.lower(j, k)) / 2; };
     std::vector<double> tolerances;
@@ -107,7 +113,7 @@ class Search {
   // squares is bounded: a ball in the lattice that all of them embed.
   std::vector<IntegerVector> candidates(Index k) {
     execution_.count(1);
-    execution_.report(1 - static_cast<double>(steps_left_) / static_cast<double>(options_.steps));
+    report();
     const Index n = size();
     const double longest = b_.lattice.upper(k, k), bound = (1 + kRounding) * (1 + static_cast<double>(k));
     const MatrixXd rows = rows_.topRows(k).cast<double>();
@@ -122,7 +128,8 @@ class Search {
       conditions.row(n + 2 * j + 1) = exact * rows.row(j) * a_.lattice.pairing.cast<double>();
       target[n + 2 * j + 1] = exact * options_.sign * static_cast<double>(b_.lattice.pairing(j, k));
     }
-    auto near = lattice::near_points(lattice::reduce(conditions), target, bound, steps_left_);
+    auto near =
+        lattice::near_points(lattice::reduce(conditions, lattice::kDelta, tick_), target, bound, steps_left_, tick_);
     steps_left_ -= near.steps + kReduction * n * n;
     result_.is_complete &= near.is_complete;
     return std::move(near.integers);
@@ -162,10 +169,11 @@ class Search {
     result_.found.push_back({matrix, std::max(-ratio.least, ratio.greatest), excess});
   }
 
-  ReducedLattice a_, b_;
   SearchOptions options_;
   std::int64_t steps_left_;
   Execution& execution_;
+  std::function<void()> tick_;
+  ReducedLattice a_, b_;
   MatrixXd upper_, lower_, middle_, root_;  // matrices of a, with the slack
   double spread_ = 0;                       // half-width of the bounds of a, relative to the lower one
   IntegerMatrix rows_;

@@ -55,10 +55,10 @@ IntegerMatrix checked_product(const IntegerMatrix& A, const IntegerMatrix& B) {
   return A * B;
 }
 
-IntegerMatrix short_basis(const MatrixXd& form) {
+IntegerMatrix short_basis(const MatrixXd& form, const std::function<void()>& tick) {
   // U^T U is the form, so that the columns of U span a lattice with these lengths and angles.
   const MatrixXd root = linear::Cholesky(form).upper();
-  const auto reduced = lattice::reduce(root);
+  const auto reduced = lattice::reduce(root, lattice::kDelta, tick);
   const Eigen::VectorXd length = reduced.basis.colwise().norm();
   std::vector<Index> order(length.size());
   std::iota(order.begin(), order.end(), 0);
@@ -80,8 +80,8 @@ PeriodLattice bounded_lattice(const MatrixXd& G_N, const MatrixXd& G_D, const to
   return {lower, G_D, conformal::projected_star(G_N, G_D, real).dirichlet_gram, pairing};
 }
 
-ReducedLattice reduced(const PeriodLattice& given) {
-  const IntegerMatrix basis = short_basis(given.projected);
+ReducedLattice reduced(const PeriodLattice& given, const std::function<void()>& tick) {
+  const IntegerMatrix basis = short_basis(given.projected, tick);
   return {{in_basis(basis, given.lower), in_basis(basis, given.upper), in_basis(basis, given.projected),
            checked_product(checked_product(basis, given.pairing), basis.transpose())},
           basis,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 
 #include "lattice/reduction.h"
 #include "topology/symplectic_basis.h"
@@ -40,7 +41,8 @@ PeriodLattice bounded_lattice(const Eigen::MatrixXd& G_N, const Eigen::MatrixXd&
                               int genus);
 
 /// Rows: an LLL-reduced basis of Z^n with a quadratic form, ascending by length. @throws SolverError
-IntegerMatrix short_basis(const Eigen::MatrixXd& form);
+/// @param tick called for each step of the reduction; it may throw, here and below
+IntegerMatrix short_basis(const Eigen::MatrixXd& form, const std::function<void()>& tick = {});
 
 /// The same lattice in a basis of short vectors, ascending by length.
 struct ReducedLattice {
@@ -49,7 +51,7 @@ struct ReducedLattice {
 };
 
 /// @throws SolverError, Error where integers leave 2^53
-ReducedLattice reduced(const PeriodLattice& lattice);
+ReducedLattice reduced(const PeriodLattice& lattice, const std::function<void()>& tick = {});
 
 /// A B. @throws Error where an entry leaves 2^53
 IntegerMatrix checked_product(const IntegerMatrix& A, const IntegerMatrix& B);

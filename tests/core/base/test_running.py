@@ -233,6 +233,14 @@ def test_cancelling_the_forms_for_the_uv_map_leaves_the_structure_usable():
     assert np.isfinite(uv).all()
 
 
+def test_cancelling_the_balance_leaves_the_structure_usable():
+    surface = surface_of(families.block_with_holes(3, refine=2))
+    structure, other = conformal_structure(surface), conformal_structure(surface)
+    with pytest.raises(Cancelled):
+        structure.balanced_coefficients(progress=lambda fraction, stage: False)
+    assert structure.balanced_coefficients().tobytes() == other.balanced_coefficients().tobytes()
+
+
 def test_error_in_the_progress_function_reaches_the_caller():
     def broken(fraction, stage):
         raise RuntimeError("mine")

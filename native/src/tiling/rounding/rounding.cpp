@@ -143,7 +143,7 @@ RoundingSearch::Weighted RoundingSearch::weighted(const MatrixXcd& rows) {
   Weighted result{rows, MatrixXd(B.rows(), 2), {}};
   TaskProgress watch(execution_, kUsualSteps);
   if (is_whole()) {
-    result.reduced = lattice::reduce(B, 0.99, [&] { watch(0); });
+    result.reduced = lattice::reduce(B, lattice::kDelta, [&] { watch(0); });
   } else {
     result.points << as_real(rows * target), as_real(rows * (Complex(0, 1) * target));
     result.reduced = lattice::reduce_by_blocks(B, result.points, execution_);
