@@ -69,4 +69,4 @@ def latin(n):
     return np.random.default_rng(0).random((3 * m, 3)), faces.tolist()
 
 
-SHAPES = {shape.__name__: shape for shape in (fan, spiral, stairs, soup, star, ribbon, plate, latin)}
+SHAPES = {shape.__name__: shape for shape in (fan, spiral, stairs, soup, star, ribbon, plate)}

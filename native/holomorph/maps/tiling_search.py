@@ -72,10 +72,11 @@ class TilingSearch:
         is_bound = any(options.get(name) is not None for name in ("max_added", "allowed"))
         return is_chosen or is_bound or bool(options.get("moves")) or self._has_cones
 
-    def guess_without_poles(self) -> float:
+    def guess_without_poles(self, progress: Progress | None = None) -> float:
         """About what a tiling without poles costs, of which only the density is known."""
         boundary = self._request.options.get("boundary", "automatic")
-        tiler = self._structure.tiler(0, evened=self._request.evenness > 0, surface=self.surface, boundary=boundary)
+        options = {"evened": self._request.evenness > 0, "surface": self.surface, "boundary": boundary}
+        tiler = self._structure.tiler(0, **options, progress=scaled(progress, 0.0, 0.0))
         return 2 * ROUNDED * math.log(max(tiler.poles.size_range, 1.0))
 
     def of_density(self, density: float, tries: int, progress: Progress | None) -> list[Map]:
@@ -183,7 +184,7 @@ class TilingSearch:
     def _regular(self, size, progress):
         """The tiling without poles where the best map is asked for and needs no cones; else None."""
         is_best = self._request.main == "automatic" and self._is_open and self._has_tilings_without_poles
-        if not is_best or self.guess_without_poles() > REGULAR:
+        if not is_best or self.guess_without_poles(progress) > REGULAR:
             return None
         try:
             made = self._with(0, size, progress)
@@ -206,7 +207,7 @@ class TilingSearch:
             return self._with(0, size, step)
         for count in self._other_counts(made):
             try:
-                if count or self.guess_without_poles() < _but_direction(made):
+                if count or self.guess_without_poles(step) < _but_direction(made):
                     made = min(made, self._with(count, size, step), key=lambda each: each.cost)
             except REFUSALS:
                 continue

@@ -8,7 +8,7 @@ import costly
 import holomorph
 import numpy as np
 import pytest
-from holomorph import Surface, _native, automatic_maps, island_map
+from holomorph import Surface, _native, automatic_map, automatic_maps, island_map
 from holomorph.mesh.copies import copies
 from holomorph.quality.overlap import overlapping_part
 
@@ -76,6 +76,12 @@ def test_cost_grows_with_the_size(shape, function, measure, size):
         surface = Surface(*costly.SHAPES[shape](times * size))
         found.append(measure(lambda surface=surface: FUNCTIONS[function](surface)))
     assert found[2] <= found[0] * 4**MOST, found
+
+
+@pytest.mark.parametrize(("make", "size"), [(costly.plate, 6400), (costly.latin, 1200)])
+def test_hundreds_of_loops_cost_no_more_than_their_triangles(make, size):
+    small, large = (operations(lambda n=n: automatic_map(Surface(*make(n)), threads=1)) for n in (size, 4 * size))
+    assert large <= small * 4**MOST
 
 
 def test_lines_across_a_star_are_few():
