@@ -164,7 +164,8 @@ DensityObjective::DensityObjective(const SampledParts& parts, Coefficients kind)
       columns_(kind == Coefficients::complex ? 2 : 1) {
   if (!are_many_) return;
   // (P + iQ) (x + iy) from [P; Q] [x, y]: half of what is read from memory.
-  for (MatrixXd* M : {&M_, &N_}) *M = M->leftCols(parts.M.cols()).eval();
+  M_ = M_.leftCols(parts.M.cols()).eval();
+  N_ = N_.leftCols(parts.N.cols()).eval();
 }
 
 VectorXd DensityObjective::parts(const MatrixXd& M, const VectorXd& x) const {
