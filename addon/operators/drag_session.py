@@ -36,10 +36,9 @@ class Session:
             raise ValueError(f"{obj.name}: it has no map with points to drag; {AGAIN}")
         if stored.is_behind(stored.parsed(text), obj):
             raise ValueError(f"{obj.name}: its dials were changed since its map was made; {AGAIN}")
-        self._options, self._write_options = request.Run(dials, [self.target], request.own_texture(dials)[0]).only
+        own, _ = request.own_texture(dials)
+        self._options, self._write_options = request.Run(dials, [self.target], own, goes_on=True).only
         self._asked = self._options.tiling
-        if stored.asked(text):  # tiles may have the size that they have on other objects
-            self._asked = replace(self._asked, size=stored.asked(text).size)
         self._are_cones, self._earlier = len(stored.cones(text)) > 0, request.moved_points(dials, self.target)
         self._count = points.asked_count(dials)
         self._task = targets.tasks([self.target])[0]

@@ -21,6 +21,7 @@ from ..solving.jobs import Choices
 FACES = {"AUTOMATIC": jobs.SELECTED, "FACES": jobs.ASKED}  # by the use of the selection
 AXES = "XYZ"
 ALLOWING = 0.5  # weight of a vertex above which a pole may be there
+OF_SIZE = "main", "tiles", "size", "repeats", "equal"  # dials that decide how large tiles are
 SQUARES = 4  # of the checker, across an image
 TURNS = {"NONE": 1, "HALF": 2, "QUARTER": 4, "SIXTH": 6}  # others: those of the texture
 ROWS = {
@@ -48,16 +49,31 @@ class Run:
     dials : an object with the dials: an operator, the options of the command, or a `Values`
     own : the `user_texture.Own` that is their texture, None for one of ours
     is_trial : whether maps that cost an eye no less than those of before are not written
+    goes_on : whether tiles keep the size that they have on several objects
     """
 
-    def __init__(self, dials, found, own=None, is_trial=False):
+    def __init__(self, dials, found, own=None, is_trial=False, goes_on=False):
         self.tasks, self._found, self._is_equal = targets.tasks(found), found, dials.equal
         self._is_trial = is_trial
         own = own and symmetric.as_before(own, self.objects)
         self._options = [_options(dials, target, own) for target in found if not target.refused]
-        self._write_options = _write_options(dials, own)
+        self._write_options = _write_options(dials, own, len(self.tasks) if self._is_equal else 1)
+        if goes_on:
+            self._go_on()
         turns = {one.tiling.turns for one in self._options}
         self._notes = [_why_seams(self._write_options.texture, own, k) for k in turns]
+
+    def _go_on(self):
+        """Lets the tiles of an object have the size that they had together with those of others, if no dial says
+        another."""
+        (target,), stored_now = self._found, self._write_options.stored
+        text = target.find().get(report.PROPERTY)
+        before, asked = stored.parsed(text).get("dials", {}), stored.asked(text)
+        made, together = before.get("stored") or {}, before.get("together", 1)
+        if together > 1 and asked and self._options and all(made.get(name) == stored_now[name] for name in OF_SIZE):
+            (options,) = self._options
+            self._options = [replace(options, tiling=replace(options.tiling, size=asked.size))]
+            self._write_options = replace(self._write_options, together=together)
 
     def job(self, progress=None):
         """The `jobs.Job` that solves and maps."""
@@ -230,11 +246,12 @@ def _density(size, repeats):
     return 1 / (size * repeats) ** 2 if size else 0.0
 
 
-def _write_options(dials, own):
+def _write_options(dials, own, together):
     texture = dials.texture
     if texture in (IMAGE, MATERIAL) and own is None:  # which is not yet chosen
         texture = material.CHECKER
-    shared = {"seams": dials.seams, "size": dials.size, "own": own, "stored": stored_dials.read(dials)}
+    shared = {"seams": dials.seams, "size": dials.size, "own": own, "together": together}
+    shared["stored"] = stored_dials.read(dials)
     if dials.main != SEAMLESS:
         shared |= {"repeats": dials.repeats, "shape": dials.shape}
         return WriteOptions(dials.shown, dials.checker, texture, dials.checker_scale, **shared)

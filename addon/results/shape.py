@@ -106,7 +106,8 @@ def report():
         "texture": (CHECKER, *TEXTURES, IMAGE, MATERIAL),
         **dict.fromkeys(("checker_scale", "size"), number),
         "own": (None, own),
-        "stored": (ABSENT, dict),
+        "stored": (ABSENT, None, dict),
+        "together": (ABSENT, count),
     }
     asked = {
         **dict.fromkeys(("tiles", "density", "turn", "evenness"), number),

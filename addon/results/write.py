@@ -28,6 +28,7 @@ class WriteOptions:
     empties: bool = False  # at poles and branch points
     size: float = 0.0  # width of an image of the texture on the surface; 0 for the number of squares
     own: object | None = None  # `user_texture.Own`: the texture is one of the user's
+    together: int = 1  # objects whose tiles have one size
     repeats: int = 1  # images of the texture side by side in a tile, at least
     stored: dict = field(default_factory=dict)  # the dials of which the maps are made
 

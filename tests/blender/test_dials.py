@@ -1,0 +1,226 @@
+"""One set of values: the dials of an object, from which everything starts, and which a map follows."""
+
+import json
+
+import bpy
+import numpy as np
+import pytest
+from headless_runs import headless
+from loaded_addon import module
+from scenes import everything, mesh_object, select, sphere_arrays, stored_report, torus, uv
+from scenes import stored_poles as poles
+
+stored_dials, stored, follow, mapping = (
+    module(name) for name in ("scene.stored_dials", "results.stored", "operators.follow", "operators.mapping")
+)
+DIALS = {
+    "texture": "BRICKS",
+    "checker": False,
+    "tiles": 30,
+    "size": 0.25,
+    "evenness": 0.75,
+    "turns": "NONE",
+    "direction": "Z",
+    "quarters": 1,
+    "main": "SEAMLESS",
+    "rotation": 0.5,
+    "rows": "ANYWHERE",
+    "boundary": "free",
+    "poles": "COUNT",
+    "repeats": 2,
+    "seams": True,
+}
+
+
+def is_behind(obj):
+    return stored.is_behind(stored_report(obj), obj)
+
+
+@pytest.mark.parametrize("dial", DIALS)
+def test_the_map_follows_and_is_that_of_the_button_and_of_a_script(dial):
+    obj, other = torus(), torus("Other")
+    select(obj)
+    bpy.ops.uv.holomorphic_maps()
+    setattr(obj.holomorph_map, dial, DIALS[dial])
+    assert not obj.holomorph_map.refused and not is_behind(obj)
+    followed, made_of = uv(obj), stored_dials.of(obj)
+    assert stored_report(obj)["dials"]["stored"] == made_of and made_of[dial] == DIALS[dial]
+    assert mapping.press(obj) == {"FINISHED"}
+    assert np.array_equal(uv(obj), followed) and stored_dials.of(obj) == made_of
+    select(other)
+    bpy.ops.uv.holomorphic_maps(**{dial: DIALS[dial]})
+    assert np.array_equal(uv(other), followed) and stored_dials.of(other) == made_of
+
+
+def test_the_command_stores_what_it_is_asked_for(tmp_path):
+    torus()
+    source, target = tmp_path / "source.blend", tmp_path / "made.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(source))
+    run = headless("--output", target, "--tiles", "30", "--evenness", "0.75", "--texture", "bricks", blend=source)
+    assert run.returncode == 0, run.stderr
+    bpy.ops.wm.open_mainfile(filepath=str(target))
+    obj = bpy.data.objects["Torus"]
+    assert (obj.holomorph_map.tiles, obj.holomorph_map.texture) == (30, "BRICKS") and not is_behind(obj)
+    made = uv(obj)
+    mapping.press(obj)
+    assert np.array_equal(uv(obj), made)
+
+
+def test_an_object_without_a_map_only_keeps_its_dials():
+    obj = torus()
+    obj.holomorph_map.tiles = 30
+    assert not obj.data.uv_layers and "holomorph_report" not in obj
+    mapping.press(obj)
+    assert stored_report(obj)["dials"]["stored"]["tiles"] == 30
+
+
+def test_the_numbers_in_effect_are_shown_and_set():
+    obj = mesh_object("Ball", *sphere_arrays(3))
+    bpy.ops.uv.holomorphic_maps()
+    dials, found = obj.holomorph_map, stored.found(obj["holomorph_report"])
+    assert dials.tiles == 0 and dials.tiles_shown == found.tiles > 0
+    dials.by_size = True
+    assert dials.size == pytest.approx(found.width) and dials.size_shown == dials.size
+    dials.by_size = False
+    dials.tiles_shown = 2 * found.tiles
+    assert dials.tiles == dials.tiles_shown == 2 * found.tiles
+
+
+def test_undo_takes_dial_and_map_back_together():
+    torus()
+    bpy.ops.uv.holomorphic_maps()
+    bpy.ops.ed.undo_push(message="made")
+    before = uv(bpy.data.objects["Torus"])
+    bpy.data.objects["Torus"].holomorph_map.evenness = 1.0
+    after = uv(bpy.data.objects["Torus"])
+    bpy.ops.ed.undo_push(message="dial")
+    assert not np.array_equal(before, after)
+    for step, value, expected in ((bpy.ops.ed.undo, 0.5, before), (bpy.ops.ed.redo, 1.0, after)):
+        step()
+        obj = bpy.data.objects["Torus"]
+        assert obj.holomorph_map.evenness == value and np.array_equal(uv(obj), expected) and not is_behind(obj)
+
+
+def test_after_the_step_of_a_slider_that_waited_the_dials_are_those_of_the_map():
+    obj = torus()
+    bpy.ops.uv.holomorphic_maps()
+    with stored_dials.quietly():
+        obj.holomorph_map.evenness = 1.0
+    obj.holomorph_map.is_waiting = True
+    follow._agree()
+    assert obj.holomorph_map.evenness == 0.5 and not is_behind(obj)
+
+
+def test_an_error_in_the_middle_leaves_the_map_and_says_that_the_dial_is_ahead(monkeypatch):
+    obj = torus()
+    bpy.ops.uv.holomorphic_maps()
+    assert obj.holomorph_map.evenness == 0.5  # which adds the group to the object
+    before, report = everything(obj), obj["holomorph_report"]
+
+    def fail(*_arguments, **_options):
+        raise ValueError("no room")
+
+    monkeypatch.setattr(module("results.write"), "with_coarse_places", fail)
+    obj.holomorph_map.evenness = 1.0
+    assert everything(obj) == before and obj["holomorph_report"] == report
+    assert obj.holomorph_map.refused == "no room" and obj.holomorph_map.evenness == 1.0 and is_behind(obj)
+    monkeypatch.undo()
+    obj.holomorph_map.evenness = 0.9
+    assert not obj.holomorph_map.refused and not is_behind(obj)
+
+
+def test_a_texture_that_is_not_chosen_is_asked_for():
+    obj = torus()
+    bpy.ops.uv.holomorphic_maps()
+    obj.holomorph_map.texture = "IMAGE"
+    assert obj.holomorph_map.refused == "Choose an image"
+
+
+def test_the_eye_brings_the_objects_own_materials_back():
+    obj = torus()
+    obj.data.materials.append(bpy.data.materials.new("Mine"))
+    bpy.ops.uv.holomorphic_maps()
+    assert obj.material_slots[0].material.name != "Mine"
+    for is_shown in (False, True):
+        obj.holomorph_map.checker = is_shown
+        assert (obj.material_slots[0].material.name == "Mine") != is_shown
+
+
+def test_tiles_keep_the_size_that_they_have_on_other_objects():
+    small, large = torus(), torus("Large")
+    large.scale = (3, 3, 3)
+    select(small, large)
+    bpy.ops.uv.holomorphic_maps()
+    before = stored.found(small["holomorph_report"]).tiles
+    small.holomorph_map.evenness = 0.4
+    assert stored.found(small["holomorph_report"]).tiles == pytest.approx(before, rel=0.2)
+
+
+OTHERS = {"tiles": 30, "evenness": 0.75, "direction": "Z", "texture": "WEAVE", "quarters": 1, "seams": True}
+
+
+def dragged(obj, **options):
+    """The vertex to which the first point of a map of these dials is dragged."""
+    bpy.ops.uv.holomorphic_maps(**options)
+    (tiling,) = [part["tiling"] for part in stored_report(obj)["components"] if "tiling" in part]
+    taken = tiling["cones"] or tiling["poles"]
+    near = [set(edge.vertices) - {taken[0]} for edge in obj.data.edges if taken[0] in edge.vertices]
+    place = next(vertex for (vertex,) in near if vertex not in taken)
+    assert bpy.ops.uv.holomorphic_drag_poles(moves=f"0:{place}") == {"FINISHED"}
+    return place
+
+
+def points(obj):
+    found = [part["tiling"] for part in stored_report(obj)["components"] if "tiling" in part]
+    return {vertex for tiling in found for vertex in (*tiling["poles"], *tiling["cones"])}
+
+
+@pytest.mark.parametrize("turns", ["NONE", "QUARTER"])
+def test_a_point_stays_where_it_was_dragged_whatever_dial_is_turned(turns, tmp_path):
+    obj = mesh_object("Ball", *sphere_arrays(3))
+    place = dragged(obj, turns=turns)
+    assert place in points(obj)
+    for name, value in OTHERS.items():
+        setattr(obj.holomorph_map, name, value)
+        assert place in points(obj) and not obj.holomorph_map.refused, name
+    obj.holomorph_map.turns = {"NONE": "HALF", "QUARTER": "NONE"}[turns]
+    obj.holomorph_map.turns = turns
+    assert place in points(obj)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "kept.blend"))
+    module("solving.jobs").KEPT.clear()
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "kept.blend"))
+    obj = bpy.data.objects["Ball"]
+    obj.holomorph_map.evenness = 0.25
+    assert place in points(obj)
+    bpy.ops.uv.holomorphic_automatic_points()
+    assert obj.holomorph_map.moved == "" and not is_behind(obj)
+
+
+def test_selected_points_stay_after_they_are_no_longer_selected():
+    obj = torus()
+    chosen = [5, 100, 200, 250]
+    for vertex in obj.data.vertices:
+        vertex.select = vertex.index in chosen
+    bpy.ops.uv.holomorphic_tile(poles="SELECTED", turns="NONE")
+    made = set(poles(obj))
+    for vertex in obj.data.vertices:
+        vertex.select = False
+    obj.holomorph_map.evenness = 0.75
+    assert set(poles(obj)) == made <= set(chosen) and made and obj.holomorph_map.poles == "AUTOMATIC"
+
+
+@pytest.mark.parametrize("text", ["", "x", "[]", "{}", '{"vertices": 288}', json.dumps({"poles": [-1]})])
+def test_damaged_points_are_none(text):
+    obj = torus()
+    obj.holomorph_map.moved = text
+    assert mapping.press(obj) == {"FINISHED"}
+
+
+def test_a_map_of_selected_faces_waits_for_the_button():
+    obj = torus()
+    for polygon in obj.data.polygons:
+        polygon.select = polygon.index % 12 < 6
+    bpy.ops.uv.holomorphic_maps(use_selection="FACES")
+    before = uv(obj)
+    obj.holomorph_map.evenness = 1.0
+    assert np.array_equal(uv(obj), before) and is_behind(obj)
