@@ -81,6 +81,8 @@ MUTATIONS = (
         ("gram-values", "3 * of_values", "0.3 * of_values", SUMS),
         ("gram-zero-weights", "k == 0 && (w.errors.empty() || w.errors[e] == 0)", "k == 0", "native:*GramMatrices*"),
         ("gram-errors-halved", "errors = gram.uncertain", "errors = 0.5 * gram.uncertain", SUMS),
+        ("gram-excess", "(1 + 16 * kUnit) * (u - rho * k)", "0.5 * (u - rho * k)", "native:*ManyForms*"),
+        ("gram-usual", "rho * (1 + 8 * kUnit)", "0.1 * rho", "native:*ManyForms*"),
     )
     | of(
         ROOM + "forms/certificates.cpp",
