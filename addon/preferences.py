@@ -15,8 +15,21 @@ class HOLOMORPH_preferences(bpy.types.AddonPreferences):
         default=True,
     )
 
+    research: BoolProperty(
+        name="Research",
+        description="Show the dials of single forms, of their shares and of the solver in the sidebar",
+        default=False,
+    )
+
     def draw(self, _context):
         self.layout.prop(self, "show_in_viewport")
+        self.layout.prop(self, "research")
+
+
+def of(context):
+    """The preferences; None where the add-on is not enabled as one."""
+    addon = context.preferences.addons.get(HOLOMORPH_preferences.bl_idname)
+    return None if addon is None else addon.preferences
 
 
 register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_preferences])

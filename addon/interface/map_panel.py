@@ -3,13 +3,13 @@
 
 import bpy
 
-from .. import native
-from ..operators import drag, tools
+from .. import native, preferences
+from ..operators import drag
 from ..operators.dials import HOLOMORPH_OT_quarter
 from ..operators.dials_view import dial, draw_texture, row
 from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
 from ..operators.mixins import CONVERT, CONVERTIBLE
-from ..operators.properties import UNLINED
+from ..operators.properties import FORMS, UNLINED
 from ..overlays import overlay
 from ..scene import stored_dials
 from . import lines
@@ -140,10 +140,6 @@ def _draw_note(layout, context, obj, dials):
         lines.draw(layout, context, dials.refused, "ERROR")
     elif obj.modifiers and not len(obj.data.polygons) and not dials.modifiers:
         lines.draw(layout, context, "Its faces come only from modifiers: switch With Modifiers on", "INFO")
-    from ..results import restore
-
-    if context.mode == "OBJECT" and restore.is_possible(obj):
-        layout.operator(tools.HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
 
 
 class AdvancedPanel:
@@ -165,6 +161,29 @@ class AdvancedPanel:
             row(column, "Only in").prop_search(dials, "pole_group", obj, "vertex_groups", text="")
         for name in _switches(context, obj, dials):
             row(column, "").prop(dials, name)
+
+
+class ResearchPanel:
+    bl_label = "Research"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        own = preferences.of(context)
+        return AdvancedPanel.poll(context) and own is not None and own.research
+
+    def draw(self, context):
+        obj = context.active_object
+        dials, column = getattr(obj, stored_dials.NAME), self.layout.column()
+        for name in ("forms", "shown", "density", "checker_scale", "solver"):
+            dial(column, dials, name)
+        for name in ("cut_at_seams", "shape"):
+            row(column, "").prop(dials, name)
+        forms = _found(_report(obj)).forms
+        for index in range(min(forms, FORMS) if forms > 1 else 0):  # a single form has no share
+            made = row(column, f"Form {index + 1}")
+            made.prop(dials, "amounts", index=index, text="")
+            made.prop(dials, "phases", index=index, text="")
 
 
 def shown(dials):

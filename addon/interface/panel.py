@@ -36,6 +36,10 @@ class _AdvancedPanel(map_panel.AdvancedPanel, _Panel):
     pass
 
 
+class _ResearchPanel(map_panel.ResearchPanel, _Panel):
+    pass
+
+
 class _DetailsPanel(_Panel):
     """The mathematics of the last result."""
 
@@ -113,6 +117,7 @@ class _ToolsPanel(_Panel):
         row.operator(texel_operators.HOLOMORPH_OT_texels_get.bl_idname, text="Get")
         row.operator(texel_operators.HOLOMORPH_OT_texels_set.bl_idname, text="Set")
         column = self.layout.column(align=True)
+        column.operator(tools.HOLOMORPH_OT_restore_materials.bl_idname)
         column.operator(tools.HOLOMORPH_OT_remove_maps.bl_idname)
         column.operator(tools.HOLOMORPH_OT_assets.bl_idname)
         if self.bl_space_type == "VIEW_3D":
@@ -139,6 +144,7 @@ def _panels(name, space):
     return [
         made(_MapPanel),
         made(_AdvancedPanel, "_advanced", name),
+        made(_ResearchPanel, "_research", name),
         made(_DetailsPanel, "_details", name),
         made(_CheckPanel, "_check"),
         made(_ThingsPanel, "_things"),

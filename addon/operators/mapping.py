@@ -3,7 +3,7 @@
 
 import bpy
 
-from .. import native
+from .. import native, preferences
 from ..scene import stored_dials
 from . import dials_view
 from .mixins import MODAL_FACES, MODAL_TILED_FACES, OnMeshes, WorkOperator
@@ -64,8 +64,12 @@ class _MapsOperator(Dials, OfOneRun, OnMeshes, WorkOperator):
         self.show(step.context, outcome, self.checker, self._own is not None)
         return self.tell(outcome)
 
-    def draw(self, _context):
+    def draw(self, context):
         dials_view.draw(self.layout, self)
+        own = preferences.of(context)
+        if own is not None and own.research:
+            self.layout.prop(self, "use_selection")
+            self.layout.prop(self, "residues")
 
 
 def press(obj):

@@ -7,8 +7,7 @@ import math
 
 import bpy
 
-from .. import native
-from ..preferences import HOLOMORPH_preferences
+from .. import native, preferences
 
 CONVERTIBLE = {"FONT", "CURVE", "SURFACE", "META"}
 CONVERT = "Convert this to a mesh first: Object > Convert > Mesh"
@@ -238,8 +237,8 @@ class WorkOperator(Explained):
         """Switches the window's 3D views so that the texture of what was done is seen, or the user's own material."""
         from ..materials import material
 
-        addon = context.preferences.addons.get(HOLOMORPH_preferences.bl_idname)
-        is_wanted = addon is None or addon.preferences is None or addon.preferences.show_in_viewport
+        own = preferences.of(context)
+        is_wanted = own is None or own.show_in_viewport
         if outcome.done and has_texture and context.window is not None and is_wanted:
             material.show_in_views(context.window, material.MATERIAL_VIEW if is_own else material.SOLID_VIEW)
 

@@ -103,8 +103,8 @@ def _register_switches():
     manager = bpy.types.WindowManager
     text = "Heat map of the active UV maps of the selected meshes"
     setattr(manager, HEAT, EnumProperty(name="Heat Map", description=text, items=QUANTITIES, update=_redraw))
-    text = "Show the poles and branch points of seamless tilings on the selected meshes"
-    setattr(manager, MARKS, BoolProperty(name="Show Poles", description=text, default=True, update=_redraw))
+    text = "Show a dot wherever more or fewer tiles meet than elsewhere"
+    setattr(manager, MARKS, BoolProperty(name="Show Points", description=text, default=True, update=_redraw))
 
 
 def register():

@@ -214,7 +214,7 @@ def _faces(count):
 def _modifier_notes(obj, solved):
     closing = [m.name for m in obj.modifiers if m.type in CLOSING_MODIFIERS and not compatibility.is_auto_smooth(m)]
     if closing and any(c.surface.boundary_count for c in solved.components):
-        yield f"{obj.name}: modifiers are ignored: use Map with Modifiers if {closing[0]!r} closes the surface"
+        yield f"{obj.name}: modifiers are ignored: switch With Modifiers on if {closing[0]!r} closes the surface"
 
 
 def with_coarse_places(obj, polygons, entry):

@@ -82,6 +82,7 @@ def report():
         **surface,
         "done": True,
         "area": number,
+        "forms": (ABSENT, count),
         "description": str,
         "main_map": main_map,
         "tiling": (ABSENT, tiling),

@@ -66,13 +66,14 @@ class Found(NamedTuple):
     """What a panel shows of the tilings of a map, beside the dials that asked for them.
 
     points : how many there are; turns : see `turns`; tiles, width : how many, and how wide they are on the surface; 0
-        without tilings
+        without tilings; forms : the largest number of any part
     """
 
     points: int = 0
     turns: int = 1
     tiles: int = 0
     width: float = 0.0
+    forms: int = 0
 
 
 @functools.lru_cache(maxsize=16)
@@ -81,8 +82,9 @@ def found(stored):
     parts = [part for part in parsed(stored).get("components", []) if "tiling" in part]
     tiles = min(sum(part["tiling"]["tiles"] for part in parts), MOST_TILES)
     area = max(sum(part["area"] for part in parts), 0.0)
+    forms = max((part.get("forms", 0) for part in parsed(stored).get("components", [])), default=0)
     points = sum(len(part["tiling"]["poles"]) + len(part["tiling"]["cones"]) for part in parts)
-    return Found(points, turns(stored), round(tiles), math.sqrt(area / tiles) if tiles > 0 else 0.0)
+    return Found(points, turns(stored), round(tiles), math.sqrt(area / tiles) if tiles > 0 else 0.0, forms)
 
 
 def asked(stored):

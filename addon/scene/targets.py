@@ -124,7 +124,7 @@ def _target(obj, mask, asked):
         return _with_modifiers(replace(target, modifiers=True), obj, own, asked)
     modifier = "" if own.face_count else first_modifier(obj)
     if modifier and mesh_io.read_shown(obj, gathering.linear(obj), own)[0].face_count:
-        sentence = f"all its faces come from its modifiers ({modifier}): press Map with Modifiers"
+        sentence = f"all its faces come from its modifiers ({modifier}): switch With Modifiers on"
         return replace(target, refused=sentence)
     return replace(target, polygons=own, chosen=_chosen(obj, asked))
 

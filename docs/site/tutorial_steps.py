@@ -14,7 +14,7 @@ from mathutils import Euler
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "support"))
 from objects import maps, part_report, pick
 from running import run, wait_until
-from screen import area, click, enter, hover, inside, picture, region, window
+from screen import area, enter, hover, inside, picture, window
 from sidebar import open_sidebar, press_button
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -70,15 +70,6 @@ def call(operator, **options):
     pick(bpy.context.view_layer.objects.active.name)
 
 
-def set_dials(**values):
-    """As a hand does in the redo panel: undoes the last operator, and executes it with these values."""
-    operator = bpy.context.window_manager.operators[-1]
-    for name, value in values.items():
-        setattr(operator.properties, name, value)
-    with inside(view()):
-        bpy.ops.ed.undo_redo()
-
-
 def wait_for_maps(obj):
     yield from wait_until(lambda: maps(obj.name))
     yield 1
@@ -103,7 +94,7 @@ def one_button():
 
 
 def dials():
-    """In the redo panel, opened by its header."""
+    """In the panel."""
     window().workspace = bpy.data.workspaces["Layout"]
     yield 2
     mug = load("mug")
@@ -113,10 +104,9 @@ def dials():
     yield 1
     yield from press_button("VIEW_3D")
     yield from wait_for_maps(mug)
-    hud = region(view(), "HUD")
-    click(hud.x + 30, hud.y + hud.height / 2)
-    yield 1
-    set_dials(texture="BRICKS", tiles=24)
+    for name, value in (("texture", "BRICKS"), ("tiles", 24)):
+        setattr(mug.holomorph_map, name, value)
+        yield 3  # for the map, which follows
     yield from show("dials", view())
 
 

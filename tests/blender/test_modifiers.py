@@ -97,7 +97,7 @@ def test_the_object_is_mapped_as_its_applied_mesh_is():
 def test_a_skin_is_pointed_to_and_mapped():
     obj = skin()
     before = everything(obj)
-    with pytest.raises(RuntimeError, match="come from its modifiers .'Skin'.: press Map with Modifiers"):
+    with pytest.raises(RuntimeError, match="come from its modifiers .'Skin'.: switch With Modifiers on"):
         run()
     assert everything(obj) == before
     assert with_modifiers() == {"FINISHED"}
