@@ -14,7 +14,7 @@ from mathutils import Euler
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "support"))
 from objects import maps, part_report, pick
 from running import run, wait_until
-from screen import area, enter, hover, inside, picture, window
+from screen import area, enter, hover, inside, picture, region, window
 from sidebar import open_sidebar, press_button
 
 ROOT = Path(__file__).resolve().parents[2]
