@@ -16,6 +16,10 @@ class Newest:
         """The value of a key; None where it is not kept."""
         return self._values.get(key)
 
+    def values(self) -> list[Any]:
+        """All that are kept, the oldest first."""
+        return list(self._values.values())
+
     def keep(self, key: Hashable, value: Any) -> Any:
         """Keeps the value as the newest one, and returns it."""
         self._values.pop(key, None)

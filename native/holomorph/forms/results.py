@@ -224,6 +224,7 @@ class Structure(Value):
         tiler = self._tilers.get(key)
         if tiler is None:
             options = {"boundary": boundary, "allowed": allowed, "evened": bool(evened), "threads": self._threads}
+            options["like"] = next((kept for kept in self._tilers.values() if isinstance(kept, Tiler)), None)
             tiler = Tiler(surface, poles, **options, progress=progress)
         return self._tilers.keep(key, tiler)
 

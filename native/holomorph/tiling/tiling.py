@@ -44,6 +44,7 @@ class Tiler:
         surface with both handles and a boundary has straight ones in any case
     allowed : (#V,) bool, where poles may be that are not chosen; default anywhere
     evened : whether tilings will be evened: fewer poles are enough then
+    like : another Tiler of the surface: what both need is made once
     solver, threads, progress : as in `conformal_structure`
     """
 
@@ -56,6 +57,7 @@ class Tiler:
         allowed: ArrayLike | None = None,
         evened: bool = False,
         solver: str = "auto",
+        like: Tiler | None = None,
         threads: int | None = 0,
         progress: Progress | None = None,
     ) -> None:
@@ -72,6 +74,7 @@ class Tiler:
             labels=labels,
             evened=evened,
             solver=solver,
+            like=like and like._placement,
             threads=self._threads,
             progress=progress,
         )

@@ -33,10 +33,11 @@ auto unlocked(int threads, const py::object& progress, Compute compute) {
 
 Placement place(const std::shared_ptr<mesh::Surface>& surface, std::optional<int> count, std::vector<int> vertices,
                 const std::vector<bool>& allowed, bool straight, std::vector<int> labels, bool evened,
-                const std::string& solver, int threads, const py::object& progress) {
+                const std::string& solver, const Placement* like, int threads, const py::object& progress) {
   tiling::PoleOptions options{
       count, std::move(vertices), {allowed.begin(), allowed.end()}, straight, std::move(labels), {solver}, evened};
-  return unlocked(threads, progress, [&](Execution& execution) { return tiling::place(surface, options, execution); });
+  return unlocked(threads, progress,
+                  [&](Execution& execution) { return tiling::place(surface, options, like, execution); });
 }
 
 Tiling tile(const Placement& placement, double tiles, const std::array<std::complex<double>, 2>& lattice,
@@ -122,7 +123,7 @@ void bind_tiling(py::module_& m) {
       .def("residues", [](const Placement& p) { return copy(p.form.residues); })
       .def_readonly("density_ratio", &Placement::optimal_density_ratio);
   m.def("place_poles", &place, "surface"_a, py::kw_only(), "count"_a, "vertices"_a, "allowed"_a, "straight"_a,
-        "labels"_a, "evened"_a, "solver"_a, "threads"_a, "progress"_a);
+        "labels"_a, "evened"_a, "solver"_a, "like"_a, "threads"_a, "progress"_a);
   m.def("tile", &tile, "placement"_a, py::kw_only(), "tiles"_a, "lattice"_a, "turn"_a, "direction"_a, "max_turn"_a,
         "evenness"_a, "size_counts"_a, "threads"_a, "progress"_a);
   m.def("move_poles", &move_poles, "placement"_a, "tiling"_a, "moves"_a, py::kw_only(), "evenness"_a, "threads"_a,

@@ -11,12 +11,15 @@ namespace {
 // @param greens of the level; afterwards of the surface. @param mirror the same
 MeromorphicForm transferred(MeromorphicForm form, GreensFunctions& greens, std::optional<Mirror>& mirror,
                             const CoarseLevel& level, std::shared_ptr<const mesh::Surface> surface,
-                            uv::Coefficients kind, const PoleOptions& options, Execution& execution) {
+                            uv::Coefficients kind, const PoleOptions& options, const Placement* like,
+                            Execution& execution) {
   const VectorXcd wanted = samples_of(form, greens);
   const MatrixXcd frames = uv::tangent_frames(*level.surface, greens.basis().samples());
   const std::vector<int> level_poles = form.poles;
   for (int& v : form.poles) v = level.vertex[v];
-  if (level.is_whole(*surface))
+  if (like)
+    greens = level.is_whole(*surface) ? GreensFunctions(like->basis) : std::move(greens).on(like->basis);
+  else if (level.is_whole(*surface))
     greens = GreensFunctions(std::make_shared<const PoleBasis>(std::move(surface), options.solving, execution));
   else
     greens = std::move(greens).on(std::make_shared<const PoleBasis>(std::move(surface), options.solving,
@@ -34,28 +37,46 @@ MeromorphicForm transferred(MeromorphicForm form, GreensFunctions& greens, std::
 
 // Makes the placement. It keeps the Green's functions of the poles alone, and drops those of the search.
 Placement placement(PoleOptions options, uv::Coefficients kind, const GreensFunctions& greens, MeromorphicForm form,
-                    std::optional<Mirror> mirror, Execution& execution) {
+                    std::optional<Mirror> mirror, PlacementStart start, const Placement* like, Execution& execution) {
   const auto& basis = greens.shared_basis();
   const double ratio = density_ratio(density(form, greens));
-  Placement result{std::move(options), basis, kind, GreensFunctions(basis), std::move(form), ratio, std::move(mirror)};
-  if (basis->has_jacobian()) result.inversion = std::make_shared<const JacobiInversion>(*basis, execution);
+  Placement result{std::move(options), basis,           kind, GreensFunctions(basis), std::move(form), ratio,
+                   std::move(mirror),  std::move(start)};
+  if (basis->has_jacobian())
+    result.inversion = like ? like->inversion : std::make_shared<const JacobiInversion>(*basis, execution);
   result.greens.solve_at(result.form.poles, execution);
   return result;
 }
 
+PlacementStart started(const std::shared_ptr<const mesh::Surface>& surface, const PoleOptions& options,
+                       Execution& execution) {
+  execution.stage("level for the poles", 0.0, 0.2);
+  CoarseLevel level = options.is_chosen() ? CoarseLevel{surface, {}, {}} : coarse_level(surface, execution);
+  execution.stage("forms for the poles", 0.2, 0.25);
+  auto basis = std::make_shared<const PoleBasis>(level.surface, options.solving, execution);
+  return {std::move(level), std::move(basis), std::make_shared<BalancedForm>()};
+}
+
+// Whether another placement begins with the same.
+bool is_alike(const Placement& other, const mesh::Surface& surface, const PoleOptions& options, uv::Coefficients kind) {
+  return other.basis->structure().surface.get() == &surface && other.kind == kind &&
+         other.options.solving.solver == options.solving.solver && !other.options.is_chosen() && !options.is_chosen();
+}
+
 }  // namespace
 
-Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, Execution& execution) {
+Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, const Placement* like,
+                Execution& execution) {
   const auto type = mesh::topological_type(*surface);
   const bool straight = !type.closed() && (options.straight || type.genus > 0);
   const auto kind = straight ? uv::Coefficients::real : uv::Coefficients::complex;
-  execution.stage("level for the poles", 0.0, 0.2);
-  const CoarseLevel level = options.is_chosen() ? CoarseLevel{surface, {}, {}} : coarse_level(surface, execution);
-  execution.stage("forms for the poles", 0.2, 0.25);
-  GreensFunctions greens(std::make_shared<const PoleBasis>(level.surface, options.solving, execution));
+  if (like && !is_alike(*like, *surface, options, kind)) like = nullptr;
+  PlacementStart start = like ? like->start : started(surface, options, execution);
+  const CoarseLevel& level = start.level;
+  GreensFunctions greens(start.basis);
   std::optional<Mirror> plane = options.is_chosen() ? std::nullopt : mirror(greens.basis());
-  PlaceOptions place_options{kind,          {}, options.vertices, level.large_polygons, plane ? &*plane : nullptr,
-                             options.evened};
+  PlaceOptions place_options{
+      kind, {}, options.vertices, level.large_polygons, plane ? &*plane : nullptr, options.evened, start.balanced};
   // Where poles are allowed, in the numbers of the level.
   for (const int v : level.vertex) {
     if (!options.allowed.empty()) place_options.allowed.push_back(options.allowed[v]);
@@ -66,8 +87,9 @@ Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions option
   execution.stage("forms of the surface", 0.6, 1.0);
   if (!place_options.mirror) plane.reset();
   if (level.surface != surface)
-    form = transferred(std::move(form), greens, plane, level, std::move(surface), kind, options, execution);
-  Placement result = placement(std::move(options), kind, greens, std::move(form), std::move(plane), execution);
+    form = transferred(std::move(form), greens, plane, level, surface, kind, options, like, execution);
+  Placement result =
+      placement(std::move(options), kind, greens, std::move(form), std::move(plane), std::move(start), like, execution);
   execution.finish();
   return result;
 }

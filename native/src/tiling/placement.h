@@ -11,6 +11,7 @@
 #include "tiling/maps/assemble.h"
 #include "tiling/poles/meromorphic_form.h"
 #include "tiling/poles/mirror.h"
+#include "tiling/poles/pole_candidates.h"
 
 namespace holomorph::tiling {
 
@@ -27,6 +28,13 @@ struct PoleOptions {
   bool is_chosen() const { return !vertices.empty(); }
 };
 
+/// What the search begins with, for any number of poles.
+struct PlacementStart {
+  CoarseLevel level;
+  std::shared_ptr<const PoleBasis> basis;            ///< on the level
+  std::shared_ptr<BalancedForm> balanced = nullptr;  ///< the form without poles, once it was needed
+};
+
 /// The poles of a surface, and all that tilings with them are made of. Several threads may use one.
 struct Placement {
   PoleOptions options;
@@ -36,14 +44,18 @@ struct Placement {
   MeromorphicForm form;                    ///< the most even one with these poles, before its periods are rounded
   double optimal_density_ratio = 1;        ///< 95 % over 5 % quantile of its density
   std::optional<Mirror> mirror;            ///< of the poles, where the form is its own mirror image
+  PlacementStart start;
   std::shared_ptr<const JacobiInversion> inversion = nullptr;  ///< on a closed surface with handles, else null
   /// The maps of the last tiling, reused by the next one with the same poles.
   std::shared_ptr<Memo<std::vector<int>, SeamlessMaps>> maps = std::make_shared<Memo<std::vector<int>, SeamlessMaps>>();
 };
 
 /// Places the poles, on a level of the progressive mesh where the surface is large (pole_placement.h).
+/// @param like null, or a placement on the same surface, whose bases and balanced form are taken where they are the
+/// same
 /// @pre connected, no isolated vertices. @throws TopologyError for poles that do not fit; SolverError; Cancelled
-Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, Execution& execution);
+Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, const Placement* like,
+                Execution& execution);
 
 /// Returns the seamless maps with poles at these vertices. @throws TopologyError for poles that do not fit;
 /// SolverError; Cancelled

@@ -217,6 +217,31 @@ def test_cancelling():
     assert Tiler(surface_of(DOUBLE), 4).tile(128).uv.shape[1] == 2
 
 
+SHARED = {
+    "double": DOUBLE,
+    "genus 8": families.block_with_holes(8, refine=2),
+    "with a level": families.torus(100, 60, jitter=0.2),
+    "handle and hole": families.punctured_torus(),
+}
+
+
+@pytest.mark.parametrize("name", SHARED)
+@pytest.mark.parametrize(("first", "second"), [("auto", 0), (0, "auto"), (2, 6)])
+def test_what_two_placements_share_changes_no_bit(name, first, second):
+    surface = surface_of(SHARED[name])
+    known, before = Tiler(surface, first, evened=True), holomorph._native.work()
+    alone, between = Tiler(surface, second), holomorph._native.work()
+    beside, after = Tiler(surface, second, like=known), holomorph._native.work()
+    assert beside.poles.vertices.tolist() == alone.poles.vertices.tolist()
+    assert beside.tile(64).uv.tobytes() == alone.tile(64).uv.tobytes()
+    assert after - between < between - before
+
+
+def test_a_placement_of_another_surface_gives_nothing():
+    known, other = Tiler(surface_of(families.torus(9, 6)), 0), surface_of(families.torus(24, 18))
+    assert Tiler(other, 0, like=known).tile(64).uv.tobytes() == Tiler(other, 0).tile(64).uv.tobytes()
+
+
 def neighbour(mesh, vertex, steps):
     """A vertex so many steps along edges away."""
     faces = np.split(mesh.corners, mesh.offsets[1:-1])

@@ -2,20 +2,28 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "tiling/poles/mirror.h"
 
 namespace holomorph::tiling {
 
+/// The most even form without poles, by every how many samples.
+struct BalancedForm {
+  int every = 0;  ///< 0: not known yet
+  MeromorphicForm form;
+};
+
 /// Where the search may place poles.
 struct PlaceOptions {
   uv::Coefficients kind = uv::Coefficients::complex;
-  std::vector<char> allowed;                    ///< #V of the basis: may a pole be there; empty: anywhere
-  std::vector<int> fixed;                       ///< poles that stay where they are
-  std::vector<std::vector<int>> polygons = {};  ///< sets of vertices that, like a face, have room for one pole
-  const Mirror* mirror = nullptr;               ///< null, or poles lie in pairs and on its plane
-  bool evened = false;                          ///< the number of poles is to be enough for an evened map
+  std::vector<char> allowed;                         ///< #V of the basis: may a pole be there; empty: anywhere
+  std::vector<int> fixed;                            ///< poles that stay where they are
+  std::vector<std::vector<int>> polygons = {};       ///< sets of vertices that, like a face, have room for one pole
+  const Mirror* mirror = nullptr;                    ///< null, or poles lie in pairs and on its plane
+  bool evened = false;                               ///< the number of poles is to be enough for an evened map
+  std::shared_ptr<BalancedForm> balanced = nullptr;  ///< filled where it is needed and not known
 };
 
 /// Vertices are candidates where a pole is allowed, its star is apart from those of the other poles, and it is not too

@@ -73,6 +73,8 @@ MeromorphicForm PoleSearch::begin() {
   if (form.poles.empty() && basis_.form_count() == 0) form.poles = candidates_.first();
   const auto k = static_cast<Index>(form.poles.size());
   if (options_.mirror && k == 0) return form;  // there is no room
+  BalancedForm* const balanced = k == 0 ? options_.balanced.get() : nullptr;
+  if (balanced && balanced->every == every_) return balanced->form;
   form.residues = VectorXcd::Ones(k);
   if (basis_.closed() && k > 0) form.residues[k - 1] = -static_cast<double>(k - 1);
   // Images have conjugate residues that sum to 0: i and -i.
@@ -86,6 +88,7 @@ MeromorphicForm PoleSearch::begin() {
   objective_.prepare(form.poles, k, execution_);
   // The balance of many forms alone is a minimum already.
   objective_.fit(form, k == 0 && objective_.has_many_forms() ? kFromNear : kFromAfar, tick_);
+  if (balanced) *balanced = {every_, form};
   return form;
 }
 

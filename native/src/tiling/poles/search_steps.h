@@ -44,6 +44,7 @@ class SearchSteps {
   PoleCandidates candidates_;
   PoleObjective objective_;
   TaskProgress watch_;
+  int every_;
   const PoleObjective::Tick tick_ = [this] { watch_(0); };  // on the calling thread
 
  private:
@@ -58,7 +59,6 @@ class SearchSteps {
   std::vector<Trial> trials_everywhere(const MeromorphicForm& form);
   std::vector<MeromorphicForm> all_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors);
 
-  int every_;
   CandidateScores scores_;
   std::optional<AmbientOcclusion> exposure_;  // while poles are hidden
   double weight_ = 0;                         // of its mean, beside the objective
