@@ -42,6 +42,7 @@ class Untiled:
         self, surface: Surface, structure: AnyStructure, evenness: float, is_upright: bool, threads: int | None = None
     ) -> None:
         self.surface, self._structure, self._evenness, self._is_upright = surface, structure, evenness, is_upright
+        self._conformal: Map | None = None
         has_islands = surface.vertices is not None and surface.area > 0
         self._search = IslandSearch(surface, HARD, evenness, threads or 0, is_upright) if has_islands else None
 
@@ -50,10 +51,12 @@ class Untiled:
         """The best islands so far, if they were looked for."""
         return self._search and self._search.known
 
-    @cached_property
-    def conformal(self) -> Map:
+    def conformal(self, progress: Progress | None) -> Map:
         """The balanced map, not evened."""
-        return form_map(self.surface, self._structure, upright=self._is_upright)
+        if self._conformal is None:
+            step = scaled(progress, 1.0, 1.0)
+            self._conformal = form_map(self.surface, self._structure, upright=self._is_upright, progress=step)
+        return self._conformal
 
     def at_once(self, progress: Progress | None) -> Map | None:
         """The islands that cost so little that hardly another map costs less, if there are any, or better ones."""
@@ -78,9 +81,10 @@ class Untiled:
 
     def balanced(self, most: float, why: str, progress: Progress | None) -> Map | None:
         """The balanced map, if it costs less than `most`. It is evened only where that may bring it there."""
-        least = self.conformal.cost
+        conformal = self.conformal(progress)
+        least = conformal.cost
         if self._evenness > 0 and math.isfinite(least):
-            least -= (1 - EVENED) * of_squares(self.conformal.quality)
+            least -= (1 - EVENED) * of_squares(conformal.quality)
         if not least < most:
             return None
         made = self._balanced(why, progress)
