@@ -106,7 +106,7 @@ def dials():
     yield from wait_for_maps(mug)
     for name, value in (("texture", "BRICKS"), ("tiles", 24)):
         setattr(mug.holomorph_map, name, value)
-        yield 3  # for the map, which follows
+    yield from wait_until(lambda: not mug.holomorph_map.is_waiting)
     yield from show("dials", view())
 
 
