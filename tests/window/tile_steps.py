@@ -92,7 +92,8 @@ def redo_panel():
     stages = note_stages()
     sidebar = region(area("VIEW_3D"), "UI")
     click(sidebar.x + 150, sidebar.y + sidebar.height - WOOD)
-    yield 0.5
+    yield from wait_until(lambda: json.loads(obj()["holomorph_report"])["dials"]["texture"] == "PLANKS")
+    yield 0.25
     seen["stages of the preset"] = sorted(set(stages))
     seen["texture after the preset"] = json.loads(obj()["holomorph_report"])["dials"]["texture"]
     picture("tile_preset.png")
