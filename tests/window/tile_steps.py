@@ -9,7 +9,7 @@ import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from objects import clear, part_report, pick, torus
 from running import run, wait_until
-from screen import area, click, enter, event, inside, move, picture, region, tap, undo
+from screen import area, click, enter, event, hover, inside, move, picture, region, tap, undo
 from sidebar import open_sidebar, press_button
 
 seen = {}
@@ -93,6 +93,7 @@ def redo_panel():
     sidebar = region(area("VIEW_3D"), "UI")
     click(sidebar.x + 150, sidebar.y + sidebar.height - WOOD)
     yield from wait_until(lambda: json.loads(obj()["holomorph_report"])["dials"]["texture"] == "PLANKS")
+    hover(area("VIEW_3D"))  # what it was chosen in closes when the pointer has left
     yield 0.25
     seen["stages of the preset"] = sorted(set(stages))
     seen["texture after the preset"] = json.loads(obj()["holomorph_report"])["dials"]["texture"]
