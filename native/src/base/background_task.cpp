@@ -17,6 +17,7 @@ BackgroundTask::BackgroundTask(Work work, Execution& execution) {
       work_ = std::async(std::launch::async, [this, work, threads = execution.threads()] {
         Execution own(threads, [this](double, const std::string&) { return !cancelled_.load(); });
         work(own);
+        return Execution::work();
       });
       return;
     } catch (const std::system_error&) {  // thread creation failed: the calling thread runs the task
@@ -33,7 +34,7 @@ BackgroundTask::~BackgroundTask() {
 void BackgroundTask::wait(Execution& execution) {
   if (!work_.valid()) return;
   while (work_.wait_for(kPause) != std::future_status::ready) execution.report(0.0);
-  work_.get();
+  Execution::count(static_cast<double>(work_.get()));
 }
 
 }  // namespace holomorph

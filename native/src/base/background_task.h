@@ -29,7 +29,7 @@ class BackgroundTask {
 
  private:
   std::atomic<bool> cancelled_{false};
-  std::future<void> work_;  // invalid where it is done
+  std::future<std::uint64_t> work_;  // what was counted; invalid where it is done
 };
 
 }  // namespace holomorph

@@ -1,18 +1,17 @@
 #include "base/execution.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 namespace holomorph {
 
 namespace {
-std::atomic<std::uint64_t> all_work{0};
+thread_local std::uint64_t thread_work = 0;
 }
 
-Execution::~Execution() { all_work += work_; }
+void Execution::count(double operations) { thread_work += static_cast<std::uint64_t>(operations); }
 
-std::uint64_t Execution::work() { return all_work; }
+std::uint64_t Execution::work() { return thread_work; }
 
 void Execution::stage(const std::string& name, double begin, double end) {
   close_stage();

@@ -1,6 +1,7 @@
 // What a computation runs with: its threads, its progress function, and whether it has been cancelled.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -23,7 +24,6 @@ class Execution {
 
   /// @param threads of the loops, the calling one included; 0: one for each processor. No result depends on it.
   explicit Execution(int threads = 0, Callback callback = {}) : callback_(std::move(callback)), workers_(threads) {}
-  ~Execution();
   Execution(const Execution&) = delete;
   Execution& operator=(const Execution&) = delete;
 
@@ -45,18 +45,19 @@ class Execution {
       call(begin_ + (end_ - begin_) * (part_begin_ + (part_end_ - part_begin_) * done));
   }
 
-  /// Adds operations that take about as long at any size, such as tests of two triangles, to `work`.
-  void count(std::size_t operations) { work_ += operations; }
+  /// Adds operations, of about a nanosecond each, to `work`. Like the rest called by the thread that began the work.
+  static void count(double operations);
 
-  /// What was counted in this process by all objects that have ended. Two calls before and after a computation tell how
-  /// its cost grows.
+  /// What was counted on the calling thread. Two calls before and after a computation tell what it took, the same on
+  /// any machine and at any number of threads.
   static std::uint64_t work();
 
-  /// In a loop: counts a step and reports every 4096th of `count` steps, which together are the part [from, to] of the
+  /// In a loop: counts a step, and reports every 4096th of `count` steps, which together are the part [from, to] of the
   /// current stage.
   void step(std::size_t i, std::size_t count, double from = 0.0, double to = 1.0) {
-    ++work_;
-    if (i % 4096 == 0) report(from + (to - from) * static_cast<double>(i) / static_cast<double>(count));
+    if (i % 4096 != 0) return;
+    Execution::count(static_cast<double>(std::min<std::size_t>(count - i, 4096)));
+    report(from + (to - from) * static_cast<double>(i) / static_cast<double>(count));
   }
 
   /// Ends the last stage, and reports that all is done.
@@ -91,7 +92,6 @@ class Execution {
   std::string name_;
   double whole_begin_ = 0, whole_end_ = 1;  // what the stages are of, see Within
   double begin_ = 0, end_ = 0, part_begin_ = 0, part_end_ = 1, reported_ = 0;
-  std::uint64_t work_ = 0;
   Clock::time_point stage_start_{}, last_call_{};
   std::vector<std::pair<std::string, double>> seconds_;
 };

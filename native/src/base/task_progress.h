@@ -14,9 +14,11 @@ namespace holomorph {
 class TaskProgress {
  public:
   /// @param steps number of calls after which the progress reported is one half: about half of those expected
-  TaskProgress(Execution& execution, double steps) : execution_(execution), steps_(steps) {}
+  /// @param operations that each call stands for
+  TaskProgress(Execution& execution, double steps, double operations)
+      : execution_(execution), steps_(steps), operations_(operations) {}
 
-  ~TaskProgress() { execution_.count(done_); }
+  ~TaskProgress() { Execution::count(static_cast<double>(done_) * operations_); }
 
   /// @param thread that the task runs on, 0 for the calling one. @throws Cancelled
   void operator()(int thread) {
@@ -34,7 +36,7 @@ class TaskProgress {
 
  private:
   Execution& execution_;
-  double steps_;
+  double steps_, operations_;
   std::atomic<std::size_t> done_{0};
   std::atomic<bool> is_ended_{false};
   std::exception_ptr end_;  // written before is_ended_

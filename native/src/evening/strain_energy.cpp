@@ -21,6 +21,7 @@ constexpr double kEmphasis = 8;
 // weights, and the energy itself has them right. Other slivers count in full. If they did not, steps would be too long
 // there, and a few slivers would shorten those of all.
 constexpr double kThinArea = 1e-6;
+constexpr double kOperations = 80;  // for each triangle
 
 struct LogSum {
   double area = 0, log = 0;
@@ -135,6 +136,7 @@ StrainEnergy::Derivatives StrainEnergy::derivatives(const Triangle& triangle, co
 
 StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambda, Function& gradient,
                                              Function& at_corners, Workers& workers) const {
+  Execution::count(kOperations * static_cast<double>(triangles_.size()));
   at_corners.resize(3 * triangles_.size());
   const Value value = sum_over_rows(workers, static_cast<int>(triangles_.size()), Value(), [&](int t, Value& sum) {
     const Triangle& triangle = triangles_[t];

@@ -233,7 +233,7 @@ std::vector<GramMatrix> gram_matrices(const HalfEdges& half_edges, std::span<con
   Sums total = are_many ? sums_of_many(weighted, families, execution) : sums_of_few(weighted, families, execution);
   const VectorXd cut = errors.empty() ? VectorXd() : cut_sizes(weighted);
   const int edges = static_cast<int>(weights.size());
-  for (const int count : families) execution.count(weights.size() * static_cast<std::size_t>(count) * count);
+  for (const int count : families) Execution::count(static_cast<double>(weights.size()) * count * count);
   std::vector<GramMatrix> result;
   for (std::size_t i = 0, first = 0; i < families.size(); first += families[i++]) {
     const auto symmetric = [](const MatrixXd& A) { return MatrixXd((A + A.transpose()) / 2); };

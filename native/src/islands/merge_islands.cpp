@@ -97,11 +97,11 @@ class Nets {
       arriving.push_back(t);
     });
     bool found = false;
-    execution_.count(sizes_[one] + sizes_[other]);
+    Execution::count(static_cast<double>(sizes_[one] + sizes_[other]));
     for_triangles(one, [&](const Points& t) {
       const Box box = box_of(t);
       if (found || !box.meets(all)) return;
-      execution_.count(arriving.size());
+      Execution::count(static_cast<double>(arriving.size()));
       found = std::any_of(arriving.begin(), arriving.end(),
                           [&](const Points& other_t) { return box.meets(box_of(other_t)) && overlap(t, other_t); });
     });

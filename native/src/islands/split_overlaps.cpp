@@ -106,7 +106,7 @@ class Border {
       const auto found = squares_.find(square);
       if (found == squares_.end()) return true;
       std::erase_if(found->second, [&](int k) { return !is_live(k); });
-      execution_.count(found->second.size());
+      Execution::count(static_cast<double>(found->second.size()));
       return std::ranges::none_of(found->second,
                                   [&](int k) { return enters(triangle, segments_[k].start, segments_[k].end); });
     });
@@ -121,7 +121,7 @@ class Border {
       const double side = cross(a, b);
       if (b.imag() > 0 ? side > 0 : side < 0) winding += b.imag() > 0 ? 1 : -1;
     }
-    execution_.count(live_.size());
+    Execution::count(static_cast<double>(live_.size()));
     return winding != 0;
   }
 
@@ -147,7 +147,7 @@ class Border {
       const Box column = within(triangle, static_cast<double>(x) * width_, static_cast<double>(x + 1) * width_);
       const double margin = kTouching * width_;  // the ends in a column are rounded
       for (auto y = square_at(column.low - margin); y <= square_at(column.high + margin); ++y) {
-        execution_.count(1);
+        Execution::count(1);
         if (!visit((static_cast<std::uint64_t>(x) << 32) ^ (static_cast<std::uint64_t>(y) & 0xffffffffu))) return false;
       }
     }

@@ -51,7 +51,7 @@ void triangularise(MatrixXd& A, Index n, Execution& execution) {
 class BlockReduction {
  public:
   BlockReduction(const MatrixXd& B, MatrixXd& points, Execution& execution)
-      : execution_(execution), watch_(execution, kUsualSteps), n_(B.cols()) {
+      : execution_(execution), watch_(execution, kUsualSteps, static_cast<double>(B.cols())), n_(B.cols()) {
     std::vector<Index> order(n_);
     std::iota(order.begin(), order.end(), Index{0});
     const VectorXd length = B.colwise().norm();

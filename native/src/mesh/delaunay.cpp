@@ -219,7 +219,7 @@ void flip_all(IntrinsicTriangulation& t, Execution& execution) {
   const double total = std::max(1.0, static_cast<double>(rest.stack.size()));
   rest.run([&](std::size_t left) { execution.report(std::max(0.7, 1.0 - 0.3 * static_cast<double>(left) / total)); });
   regions.push_back(std::move(rest));
-  for (const Flipper& region : regions) execution.count(region.steps);
+  for (const Flipper& region : regions) Execution::count(region.steps);
   append_flips(regions, t.flips);
 }
 

@@ -87,7 +87,7 @@ class Search {
 
   // The short vectors with the products that row k needs.
   std::vector<IntegerVector> listed(Index k) {
-    execution_.count(1);
+    Execution::count(1);
     report();
     std::vector<IntegerVector> result;
     const auto goal = [&](Index j) { return (b_.lattice.upper(j, k) + b_.lattice.lower(j, k)) / 2; };
@@ -112,7 +112,7 @@ class Search {
   // Each condition on row k is a number of absolute value at most 1, or 0 for a wedge product, so that the sum of their
   // squares is bounded: a ball in the lattice that all of them embed.
   std::vector<IntegerVector> candidates(Index k) {
-    execution_.count(1);
+    Execution::count(1);
     report();
     const Index n = size();
     const double longest = b_.lattice.upper(k, k), bound = (1 + kRounding) * (1 + static_cast<double>(k));

@@ -15,6 +15,7 @@ namespace {
 constexpr double kLeastGain = 0.5;
 // The recurrence goes on to this part of the goal, so that the true residual reaches the goal in the first round.
 constexpr double kSafety = 0.9;
+constexpr double kStep = 8;  // operations for each unknown and right-hand side
 
 template <int K>
 using Values = Eigen::Array<double, K, 1>;
@@ -121,7 +122,7 @@ class Gradients {
       sum += r_[i] * p_[i];
     });
     for (; !(norm <= goal).all() && iterations < options_.most_iterations; ++iterations) {
-      execution_.count(static_cast<std::size_t>(n_) * K);
+      Execution::count(kStep * n_ * K);
       execution_.report(part_of_digits(largest_relative(norm, norm_b), options_.residual));
       const Values<K> pq = sum_over_rows(workers_, n_, zero(), [&](int i, Values<K>& sum) {
         q_[i] = product(p_, i);

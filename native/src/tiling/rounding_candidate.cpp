@@ -150,7 +150,7 @@ Candidate best_candidate(const Placement& placement, const RoundingProblem& prob
   const MatrixXcd metric = moves ? beltrami_metric(problem) : MatrixXcd();
   const int ways = moves ? static_cast<int>(std::size(kMoves)) : 1;
   std::vector<Candidate> candidates((moves ? movable(list.size(), lifted, basis) : list.size()) * ways);
-  TaskProgress watch(execution, kUsualSteps);
+  TaskProgress watch(execution, kUsualSteps, static_cast<double>(problem.Z.size()));
   run_throwing(execution.workers(), static_cast<int>(candidates.size()), [&](int thread, int i) {
     watch(thread);
     Candidate& c = candidates[i];

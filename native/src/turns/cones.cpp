@@ -27,7 +27,9 @@ constexpr double kApart = 0.7;             // of the distance between centres of
 constexpr int kAround = 12, kOthers = 60;  // candidates around a cone in a round, and elsewhere
 constexpr int kMostAround = 480;           // around all
 constexpr int kMovesAtOnce = 16;           // between two looks at whether the search is cancelled
-constexpr double kGain = 1e-9;             // a move lowers the cost by more
+// Operations for two candidates: in each move, and for each loop.
+constexpr double kPair = 2, kProduct = 0.25;
+constexpr double kGain = 1e-9;  // a move lowers the cost by more
 // Rounds: the distance of candidates from their cone, in spacings of the first ones; part of kHandles.
 struct Round {
   double reach, handles;
@@ -189,11 +191,13 @@ class Search {
     const double price = options_.price * price_part;
     const auto count = static_cast<Eigen::Index>(places_.size());
     const MatrixXd &flux = form_.flux(), Q = form_.Q() + kappa * flux.transpose() * flux;
+    Execution::count(kProduct * static_cast<double>(count * count * flux.rows()));
     const VectorXd diagonal = Q.diagonal();
     VectorXd n(count), r(count), up(count), down(count);
     std::vector<int> crowds(places_.size());
     for (int move = 0; move < kMostMoves; ++move) {
       if (move % kMovesAtOnce == 0) execution_.report(part_);
+      Execution::count(kPair * static_cast<double>(count * count));
       for (Eigen::Index i = 0; i < count; ++i) {
         n[i] = n_[i];
         crowds[i] = crowd(i);

@@ -32,6 +32,22 @@ constexpr int kMostLevels = 4;    // of half the tiles each, for which cones are
 constexpr int kFurtherApart = 2;  // levels, where triangles are flipped
 constexpr double kHelps = 0.5;    // of the wrong area: else no more is tried
 constexpr int kMantissa = 23;     // of single precision, less the sign
+// No more maps are tried after so many operations, and so many for each triangle.
+constexpr double kMuch = 1e9, kEach = 1.5e5;
+
+// The work on several maps, of which the best is taken.
+class Effort {
+ public:
+  explicit Effort(const mesh::Surface& surface)
+      : most_(kMuch + kEach * static_cast<double>(surface.triangles.size())) {}
+
+  // Whether one more may be tried.
+  bool goes_on() const { return static_cast<double>(Execution::work() - begin_) < most_; }
+
+ private:
+  const std::uint64_t begin_ = Execution::work();
+  const double most_;
+};
 
 // Cones on a surface, from those of a level of it: #V.
 std::vector<int> carried(const mesh::Surface& surface, const tiling::CoarseLevel& level, const Cones& cones) {
@@ -132,10 +148,10 @@ class PlacedCones {
   struct Judged {
     TurnedMap map;
     std::pair<double, double> bad{std::numeric_limits<double>::infinity(), 0};  // wrong area, strain
-    bool will_do = false;                                                       // no other cones are to be tried
+    bool is_last = false;                                                       // no other cones are to be tried
   };
   // The best of the maps by the nearest whole numbers.
-  Judged best_map(double tiles, double evenness, Execution& execution) const;
+  Judged best_map(double tiles, double evenness, const Effort& effort, Execution& execution) const;
   // What cones are compared by, of the map by their nearest whole numbers: the wrong area, if that is hopeless, and the
   // energy as in evening/evening.h, with that of rows that are not level.
   std::pair<double, double> badness(double tiles, double evenness, Execution& execution) const;
@@ -237,7 +253,8 @@ std::pair<double, double> PlacedCones::badness(double tiles, double evenness, Ex
   return {wrong, strain(laid(), evenness, execution)};
 }
 
-PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Execution& execution) const {
+PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, const Effort& effort,
+                                          Execution& execution) const {
   execution.stage("rounding", 0, 0.2);
   execution.report(0);
   const std::vector<NearestMap::Rounded> nearest = this->nearest(tiles);
@@ -256,9 +273,14 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, Executi
     const uv::UvArray laid = in_plane(space_.lattice, uv);
     const std::pair<double, double> bad{wrong_area(*surface_, net_, laid, space_.lattice.k, missing_),
                                         strain(laid, evenness, execution)};
-    if (!(bad < best.bad)) continue;
-    const std::vector<Jump> jumps = jumps_of(*surface_, net_, frames_, space_, nearest[i].z);
-    best = {{std::move(uv), coordinates(y, nearest[i]), jumps, {}, {}}, bad, bad.first <= unseen};
+    if (bad < best.bad) {
+      const std::vector<Jump> jumps = jumps_of(*surface_, net_, frames_, space_, nearest[i].z);
+      best = {{std::move(uv), coordinates(y, nearest[i]), jumps, {}, {}}, bad, bad.first <= unseen};
+    }
+    if (!effort.goes_on()) {
+      best.is_last = true;
+      break;
+    }
   }
   for (int v = 0; v < surface_->vertex_count; ++v) {
     if (missing_[v] == 0 || net_.on_boundary[v]) continue;
@@ -353,12 +375,13 @@ TurnedMap TurnedMaps::turned_map(double tiles, double evenness, Execution& execu
   const int last = first + (are_chosen ? 0 : kFurtherApart);
   PlacedCones::Judged best;
   const PlacedCones* winner = nullptr;
-  for (int level = first; level <= last && !best.will_do; ++level) {
+  const Effort effort(*surface_);
+  for (int level = first; level <= last; ++level) {
     const PlacedCones& tried = placed(level, execution);
-    PlacedCones::Judged other = tried.best_map(tiles, evenness, execution);
-    const bool helps = other.bad.first < kHelps * best.bad.first;
+    PlacedCones::Judged other = tried.best_map(tiles, evenness, effort, execution);
+    const bool helps = other.bad.first < kHelps * best.bad.first, is_last = other.is_last;
     if (other.bad < best.bad) best = std::move(other), winner = &tried;
-    if (!helps) break;
+    if (!helps || is_last) break;
   }
   // Sixth turns are exact to rounding alone: the fewer there are, the better.
   if (winner && options_.along && options_.k != 6) winner->turn_upright(best.map, *options_.along);

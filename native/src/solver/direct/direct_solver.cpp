@@ -78,7 +78,6 @@ class DirectSolver final : public LaplaceSolver {
  private:
   Eigen::MatrixXd solve_block(Eigen::MatrixXd B, Execution& execution) {
     execution.report(done_);
-    execution.count(static_cast<std::size_t>(B.size()));
     if (condition_ == Condition::dirichlet) B(fixed_, Eigen::all).setZero();
     Refined x = refined(B, execution);
     if (!(x.size <= kResidual) && condition_ == Condition::natural) {

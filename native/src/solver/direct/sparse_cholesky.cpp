@@ -4,6 +4,7 @@
 #include <new>
 
 #include "base/errors.h"
+#include "base/execution.h"
 #include "linear/blas.h"
 #include "solver/direct/foreign_threads.h"
 
@@ -17,6 +18,9 @@ namespace holomorph::solver {
 namespace {
 
 using Lower = Eigen::SparseMatrix<double>;
+
+// What Execution counts for each entry of the matrix.
+constexpr double kOrdering = 80;
 
 void check(bool done, Eigen::Index unknowns) {
   if (done) return;
@@ -48,6 +52,7 @@ Lower part(const Lower& lower, const std::vector<Eigen::Index>& places) {
 // Fixed unknowns become a dense block at the end of the factor where what is left of the surface connects them. Beyond
 // this many times n^1.5 operations two factorisations are faster than that one; AMD's own order takes 3 to 50.
 constexpr double kMostOperations = 300;
+constexpr double kFlops = 4;  // floating-point operations in one of those that Execution counts
 
 struct Dense {
   Dense(std::size_t rows, std::size_t columns, cholmod_common& common)
@@ -105,6 +110,10 @@ struct SparseCholesky::Factor {
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) { return apply(CHOLMOD_A, B); }
 
+  // What Execution counts for the factor.
+  double operations() const { return kOrdering * common.anz + common.fl / kFlops; }
+  double entries() const { return common.lnz; }
+
   // Forward and backward substitution; in between the fixed unknowns are set to 0. Forward they do not act on the
   // others, none of which depends on them; backward they stay 0, as those that they depend on are fixed.
   Eigen::MatrixXd solve_fixed(const Eigen::MatrixXd& B, const std::vector<char>& fixed) {
@@ -154,6 +163,8 @@ struct SparseCholesky::Factor {
   bool compute_fixed_last(const Lower&, const std::vector<char>&) { return false; }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) { return method.solve(B); }
   Eigen::MatrixXd solve_fixed(const Eigen::MatrixXd& B, const std::vector<char>&) { return solve(B); }
+  double operations() const { return kOrdering * entries(); }
+  double entries() const { return static_cast<double>(method.matrixL().nestedExpression().nonZeros()); }
 
   Eigen::SimplicialLDLT<Lower, Eigen::Lower> method;
 };
@@ -166,7 +177,10 @@ void SparseCholesky::compute(const Lower& lower, std::vector<char> fixed) {
   others_.clear();
   factor_of_others_.reset();
   factor_ = std::make_unique<Factor>();
-  if (lower.rows() > 0) on_sound_thread([&] { factorise(lower); });
+  if (lower.rows() == 0) return;
+  on_sound_thread([&] { factorise(lower); });
+  Execution::count(factor_->operations() +
+                   (factor_of_others_ && !others_.empty() ? factor_of_others_->operations() : 0));
 }
 
 void SparseCholesky::factorise(const Lower& lower) {
@@ -187,17 +201,24 @@ void SparseCholesky::factorise(const Lower& lower) {
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& B) {
   const linear::OneBlasThread one_thread;
+  count_solution(B);
   return B.rows() == 0 ? B : on_sound_thread([&] { return factor_->solve(B); });
 }
 
 Eigen::MatrixXd SparseCholesky::solve_fixed(const Eigen::MatrixXd& B) {
   const linear::OneBlasThread one_thread;
+  count_solution(B);
   if (B.rows() == 0) return B;
   if (!factor_of_others_) return on_sound_thread([&] { return factor_->solve_fixed(B, fixed_); });
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
   if (!others_.empty())
     X(others_, Eigen::all) = on_sound_thread([&] { return factor_of_others_->solve(B(others_, Eigen::all)); });
   return X;
+}
+
+// Each entry of the factor is read twice.
+void SparseCholesky::count_solution(const Eigen::MatrixXd& B) const {
+  if (B.rows() > 0) Execution::count(2 * factor_->entries() * static_cast<double>(B.cols()));
 }
 
 SparseCholesky::SparseCholesky() = default;

@@ -36,6 +36,7 @@ class SparseCholesky {
  private:
   struct Factor;
   void factorise(const Eigen::SparseMatrix<double>& lower);
+  void count_solution(const Eigen::MatrixXd& B) const;
   std::unique_ptr<Factor> factor_, factor_of_others_;  // the second one only where there are two
   std::vector<char> fixed_;
   std::vector<Eigen::Index> others_;  // that are not fixed, with two factors

@@ -128,6 +128,7 @@ constexpr double kSlowest = 0.9;
 // The largest dense inverse, where coarsening ended early.
 constexpr int kLargestDense = 2000;
 // Entries of a row of P, finest level and below: the fewest that keep the number of iterations.
+constexpr double kOperations = 500;  // for each unknown
 constexpr int kFinestEntries = 2, kCoarseEntries = 3;
 
 Array<char> fixed_flags(int n, const std::vector<int>& fixed) {
@@ -199,6 +200,7 @@ Operator coarse_operator(const Operator& fine, const Coarsening& coarse, const E
 }
 
 Hierarchy make_hierarchy(const Laplacian& L, const std::vector<int>& fixed, Execution& execution) {
+  Execution::count(kOperations * L.size());
   Hierarchy result;
   std::vector<Level>& levels = result.levels;
   levels.push_back({finest_operator(L, fixed_flags(L.size(), fixed), execution), {}, {}, {}, {}});

@@ -215,6 +215,7 @@ constexpr double kEvenedWithout = 2.85, kEvened = 2.75;  // spread of the evened
 constexpr double kHopefulEvened = 1.2 * kEvened;
 constexpr double kAllowed = 3;                             // the same, where hiding and a mirror have cost some
 constexpr double kUsualValues = 30;                        // usual evaluations of the objective in the last descent
+constexpr double kOperations = 4;                          // of an evaluation, for each sample and form
 constexpr double kMirrorCosts = 1.25, kMirrorPoles = 1.5;  // at most, of the (evened) ratio, and of poles
 constexpr int kFewMirrored = 8;  // up to this number, mirrored poles that are enough need no comparison
 constexpr double kWorth = 0.9;   // more poles are taken where the spread falls to this part of itself
@@ -333,7 +334,8 @@ MeromorphicForm optimised(GreensFunctions& greens, uv::Coefficients kind, const 
                           Execution& execution) {
   PoleObjective objective(greens, kind, 1, mirror);
   objective.prepare(start.poles, start.residues.size(), execution);
-  TaskProgress watch(execution, kUsualValues);
+  const auto samples = static_cast<double>(greens.basis().holomorphic().M.size());
+  TaskProgress watch(execution, kUsualValues, kOperations * samples);
   objective.fit(start, {uv::kDensityFloor}, [&] { watch(0); });
   return start;
 }

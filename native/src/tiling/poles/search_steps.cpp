@@ -19,6 +19,7 @@ const std::vector<double> kWithTrial = {0.03, uv::kDensityFloor};
 constexpr double kWorthOnPlane = 3;    // weight of the exposure of a pole on the plane of a mirror
 constexpr int kThinning = 3;           // a third of the samples is enough to choose what is tried
 constexpr double kUsualValues = 3000;  // usual evaluations of the objective in a search
+constexpr double kOperations = 1.5;    // of an evaluation, for each sample and form
 
 VectorXcd thinned(const VectorXcd& samples) { return samples(Eigen::seq(0, Eigen::last, kThinning)); }
 
@@ -31,7 +32,7 @@ SearchSteps::SearchSteps(GreensFunctions& greens, const PlaceOptions& options, i
       execution_(execution),
       candidates_(basis_, options),
       objective_(greens, options.kind, every, options.mirror),
-      watch_(execution, kUsualValues),
+      watch_(execution, kUsualValues, kOperations * static_cast<double>(basis_.holomorphic().M.size()) / every),
       every_(every),
       scores_(greens, every * kThinning, options.mirror) {}
 

@@ -141,7 +141,7 @@ RoundingSearch::Weighted RoundingSearch::weighted(const MatrixXcd& rows) {
   const VectorXcd& target = problem_.target;
   const MatrixXd B = as_real(product(rows, problem_.Z, execution_));
   Weighted result{rows, MatrixXd(B.rows(), 2), {}};
-  TaskProgress watch(execution_, kUsualSteps);
+  TaskProgress watch(execution_, kUsualSteps, static_cast<double>(B.cols()));
   if (is_whole()) {
     result.reduced = lattice::reduce(B, lattice::kDelta, [&] { watch(0); });
   } else {
@@ -166,7 +166,7 @@ std::vector<Rounding> RoundingSearch::best() const {
   const double scale = std::sqrt(problem_.median_density / median(problem_.target_density));
   const std::vector<double> turns = phases();
   const int scales = this->scales();
-  TaskProgress watch(execution_, kUsualTargets);
+  TaskProgress watch(execution_, kUsualTargets, static_cast<double>(problem_.Z.size()));
   std::set<std::vector<std::int64_t>> found;
   for (const Weighted& each : weighted_) {
     std::vector<lattice::IntegerVector> list(turns.size() * scales);
