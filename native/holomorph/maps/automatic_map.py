@@ -8,7 +8,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from ..core.array_types import Progress
-from ..mesh.checks import check_list, check_type
+from ..mesh.checks import check_list, check_type, real_number
 from ..mesh.surface import Surface
 from ..tiling.tiling import Poles
 from ..tiling.turned import AUTOMATIC, asked_turns, check_chosen, checked_lines
@@ -41,6 +41,7 @@ def automatic_map(
     marked: ArrayLike | None = None,
     cones: Mapping[int, float] | None = None,
     evenness: float = EVENNESS,
+    effort: float = 1.0,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Map:
@@ -64,6 +65,9 @@ def automatic_map(
         they miss it by more, the map is not a tiling
     direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
     evenness : from 0 for a conformal map to 1 for squares of nearly one size; see `Structure.tile`
+    effort : how much work may be spent on better maps, over the usual amount: some 5 s of one processor at 20,000
+        triangles. The first map is made in any case, and `Map.why` says where others were not tried; 100 tries
+        nearly all. The same on any machine
     threads : as in `conformal_structure`
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
@@ -82,7 +86,8 @@ def automatic_map(
     check_chosen(marked, cones)
     options = {"lattice": lattice, "boundary": boundary, "turn": turn, "max_turn": max_turn, "max_added": max_added}
     options |= _turning(turns, texture, lines) | {"marked": marked, "cones": cones}
-    request = Request(surface, structure, main, poles, evenness, direction, options=options)
+    chosen = {"options": options, "effort": real_number(effort, "effort", positive=True)}
+    request = Request(surface, structure, main, poles, evenness, direction, **chosen)
     size = SizePolicy.of([surface], tiles, density, density_tolerance)
     (((made,), _),) = map_objects([[request]], size, threads, progress)
     if isinstance(made, Map):
@@ -107,6 +112,7 @@ def automatic_maps(
     marked: ArrayLike | None = None,
     cones: Mapping[int, float] | None = None,
     evenness: float = EVENNESS,
+    effort: float = 1.0,
     threads: int | None = None,
     progress: Progress | None = None,
     **options: Any,
@@ -128,7 +134,8 @@ def automatic_maps(
     poles : "auto", a number for each part, or a list of vertices; "auto" on parts without any
     allowed : (#V,) bool, where poles may be that are not chosen; parts without such vertices get none
     moves : (index of a pole in the tiling of its part, vertex) for each pole that is moved after the rounding
-    direction, turns, texture, lines, marked, cones, evenness, options, threads, progress : as in `automatic_map`
+    direction, turns, texture, lines, marked, cones, evenness, effort, options, threads, progress : as in
+        `automatic_map`
 
     Raises ValueError and TypeError for arguments that do not fit; MemoryError; Cancelled. What a part itself raises
     takes the place of its map.
@@ -151,6 +158,7 @@ def automatic_maps(
     mains = [main] * len(parts) if isinstance(main, str) else main
     options |= _turning(turns, texture, lines)
     chosen = {"poles": poles, "allowed": allowed, "moves": moves, "marked": marked, "cones": cones}
+    chosen["effort"] = real_number(effort, "effort", positive=True)
     asked = MeshRequest(**chosen, direction=direction, evenness=evenness, options=options)
     requests = [asked.of_part(*each) for each in zip(parts, structures or [None] * len(parts), mains)]
     ((made, _),) = map_objects([requests], SizePolicy.of(parts, tiles, density), threads, progress)

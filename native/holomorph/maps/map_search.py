@@ -13,44 +13,58 @@ from ..mesh.checks import checked_evenness
 from ..quality.appearance import of_squares
 from ..tiling.turned import LATTICE
 from .automatic_structure import automatic_structure
+from .budget import Budget
 from .late_structure import LateStructure, late_structure
 from .map import Map, form_map
 from .piece_search import EXACT, PieceSearch
 from .request import MAIN_MAPS, Request
 from .size import TRIES, Window, is_in, nearest, relative_size, window_around
 from .tiling_search import REFUSALS, Refusal, TilingSearch
-from .untiled import FLAT, GOOD, MOST_SOFT, Untiled
+from .untiled import FLAT, GOOD, MOST_SOFT, POOR, Untiled
 
 TILING = 0.8  # part of the work, where pieces follow
 TOO_FEW = "too few whole tiles fit on it for squares of the wanted size"
+SHORT = "not all was tried, as it would take long"
+PIECES = 2.0  # times the budget, within which pieces follow a tiling: where there are hard edges they are often better
+FAR = 10.0  # times the budget: a tiling that is expected to take so long is not made where there is another map
 
 
 class MapSearch:
     """The maps of one part by its `Request`. Its structure is made at once, and what is found at once; other maps when
     a size is asked for.
 
+    budget : shared with another search of the same part
+
     Raises what `automatic_structure` raises.
     """
 
-    def __init__(self, request: Request, threads: int | None = None, progress: Progress | None = None) -> None:
+    def __init__(
+        self,
+        request: Request,
+        threads: int | None = None,
+        progress: Progress | None = None,
+        budget: Budget | None = None,
+    ) -> None:
         if request.main not in MAIN_MAPS:
             raise ValueError(f"main is {quoted(request.main)}; one of {', '.join(MAIN_MAPS)} is needed")
         checked_evenness(request.evenness)
         surface, self._request, self._threads = request.surface, request, threads
         structure = request.structure or late_structure(surface, threads)
+        self._budget = budget or Budget(len(surface.triangles), request.effort)
         self.final: Map | None = None
         if isinstance(structure, LateStructure):
             self.final = self._instead(structure, progress)
             if self.final:
                 return
             structure = structure.made
-        structure = structure or automatic_structure(surface, threads=threads, progress=progress)
-        self._structure = structure
-        self._tilings = TilingSearch(surface, structure, request)
-        self._untiled = Untiled(surface, structure, request.evenness, request.is_upright, threads)
-        self._pieces: PieceSearch | None = None
-        self._flat: Map | None = None
-        self.final = self._final(scaled(progress, 1.0, 1.0))
+        with self._budget:
+            structure = structure or automatic_structure(surface, threads=threads, progress=progress)
+            self._structure = structure
+            self._tilings = TilingSearch(surface, structure, request, self._budget)
+            self._untiled = Untiled(surface, structure, request.evenness, request.is_upright, threads)
+            self._pieces: PieceSearch | None = None
+            self._flat: Map | None = None
+            self.final = self._final(scaled(progress, 1.0, 1.0))
 
     def _instead(self, structure, progress):
         """The islands of a part whose forms would take too long, where these are not asked for."""
@@ -85,7 +99,16 @@ class MapSearch:
         """
         if self.final:
             return [self.final]
+        with self._budget:
+            return self._tried(density, tries, leads, progress)
+
+    def _tried(self, density, tries, leads, progress):
         best, tilings = self._flat, []
+        if self._is_long:
+            best = self._quick(density, tries if leads else 0, progress) or best
+            times = FAR if best and best.cost >= POOR else 1.0
+            if best and not self._budget.goes_on(self._tilings.expected_work, times):
+                return [self._said(best)]
         if best is None or self._is_ring or best.cost > GOOD:
             tilings, why = self._whole(density, tries, scaled(progress, 0.0, TILING))
             if self._request.main == "seamless":
@@ -93,7 +116,23 @@ class MapSearch:
             best = self._least(best, tilings and nearest(tilings, density), why, scaled(progress, TILING, TILING))
         tries, step = tries if leads else 0, scaled(progress, TILING, 1.0)
         best = self._in_pieces(best, density, tries, window_around(), step) or best
-        return tilings if best in tilings else [best]
+        return [self._said(made) for made in (tilings if best in tilings else [best])]
+
+    @property
+    def _is_long(self):
+        """Whether a tiling of the whole part, that may be left out, takes more than there is."""
+        is_open = self._request.main != "seamless" and not self._tilings.is_strict
+        return is_open and not self._budget.allows(self._tilings.expected_work)
+
+    def _quick(self, density, tries, progress):
+        """The best of the maps that take less than a tiling of the whole part."""
+        islands = self._untiled.islands(math.inf, scaled(progress, 0.0, 0.0))
+        best = min((made for made in (self._flat, islands) if made), key=lambda made: made.cost, default=None)
+        return self._in_pieces(best, density, tries, window_around(), progress) or best
+
+    def _said(self, made):
+        """The map, which says where others were not tried."""
+        return replace(made, why=f"{made.why}; {SHORT}") if self._budget.was_short else made
 
     def _whole(self, density, tries, progress):
         """(The tilings of the whole part, why another map is better)."""
@@ -108,6 +147,8 @@ class MapSearch:
         """The one of least cost among these and the other maps of the whole part."""
         found = [made for made in (flat, tiling) if made]
         best = min(found, key=lambda made: made.cost, default=None)
+        if best and not self._budget.goes_on():
+            return best
         best = self._untiled.balanced(best.cost if best else math.inf, why, progress) or best
         if best is None:
             return self._untiled.best(why, progress)
@@ -119,6 +160,10 @@ class MapSearch:
         """The tiling of `maps` that is in the window, or stretched to the density, or turned until it is in the
         window; else the best other map. What is asked for explicitly, such as poles that are chosen or moved, is
         made with another density. Raises what refuses it."""
+        with self._budget:
+            return self._fitting(found, density, window, progress)
+
+    def _fitting(self, found, density, window, progress):
         if isinstance(found, Exception):
             if self._tilings.is_strict or not isinstance(found, REFUSALS):
                 raise found
@@ -138,7 +183,7 @@ class MapSearch:
         """As `fitted`, of maps without lines, or of those that do not turn: these have more sizes."""
         less = {"lines": "none"} if tiling.lines != "none" else {"turns": 1, "lattice": LATTICE[tiling.turns]}
         request = replace(self._request, structure=self._structure, options={**self._request.options, **less})
-        search = MapSearch(request, self._threads)
+        search = MapSearch(request, self._threads, budget=self._budget)
         found = search.maps(density, TRIES, False, scaled(progress, 0.0, 0.5))
         return search.fitted(found, density, window, scaled(progress, 0.5, 1.0))
 
@@ -158,15 +203,17 @@ class MapSearch:
         return one if one and one.cost < found.cost else found
 
     def _has_rival(self, made, progress):
-        if self._request.main == "seamless":
+        if self._request.main == "seamless" or not self._budget.goes_on():
             return False
         return bool(self._untiled.balanced(made.cost, "", progress) or self._untiled.islands(made.cost, progress))
 
     def _in_pieces(self, rival, density, tries, window, progress):
         if self._tilings.is_strict or not self._may_be_better(self._untiled.known):
             return None
+        if rival and rival.tiling and not self._budget.goes_on(times=PIECES):
+            return None
         if self._pieces is None:
-            self._pieces = PieceSearch(self._request, self._structure, self._untiled.known, self._threads)
+            self._pieces = PieceSearch(self._request, self._structure, self._untiled.known, self._budget, self._threads)
         return self._pieces.best(rival, density, tries, window, progress)
 
     def _may_be_better(self, flat):

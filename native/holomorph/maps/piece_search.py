@@ -24,6 +24,7 @@ from ..quality.appearance import HARD_SEAM, TURN
 from ..quality.quality import Quality
 from .arrangement import arranged, unit_length
 from .automatic_structure import AnyStructure, automatic_structure
+from .budget import Budget
 from .map import Map
 from .mixed import Mixed
 from .pieces import REST, Piece, closed, cut_apart, is_tube, names_of_pieces, opened, smooth_pieces
@@ -65,10 +66,15 @@ class PieceSearch:
     """
 
     def __init__(
-        self, request: Request, structure: AnyStructure, flat: Islands | None, threads: int | None = None
+        self,
+        request: Request,
+        structure: AnyStructure,
+        flat: Islands | None,
+        budget: Budget,
+        threads: int | None = None,
     ) -> None:
         self._request, self._surface, self._structure = request, request.surface, structure
-        self._flat, self._threads = flat, threads
+        self._flat, self._budget, self._threads = flat, budget, threads
         self._found: list[_Division] | None = None
         self._rest: dict[bytes, Map] = {}
 
@@ -91,6 +97,8 @@ class PieceSearch:
             if made and minded < min(most, least):
                 best, least = made, minded
             if made and made.cost - HARD_SEAM * made.mixed.hard_length <= FLAT:
+                break
+            if best and n + 1 < count and not self._budget.goes_on():
                 break
         return best
 
@@ -117,7 +125,9 @@ class PieceSearch:
             return None
         marked = self._request.options.get("marked")
         own = {} if marked is None else {"marked": edges_on_part(surface, marked)}
-        return TilingSearch(surface, structure, replace(self._request, options={**self._request.options, **own}))
+        return TilingSearch(
+            surface, structure, replace(self._request, options={**self._request.options, **own}), self._budget
+        )
 
     def _is_worth(self, piece, search, rival):
         """Whether its tiling may be part of a map that costs less than a tiling of the whole part. On a tube one

@@ -31,6 +31,7 @@ class Request:
     main : as in `automatic_map`
     coefficients : of a "balanced" map, None for those of the balanced one
     options : further ones of `Structure.tile`
+    effort : as in `automatic_map`
     """
 
     surface: Surface
@@ -41,6 +42,7 @@ class Request:
     direction: Any = "upright"
     coefficients: Complexes | Reals | None = None
     options: Mapping[str, Any] = field(default_factory=dict)
+    effort: float = 1.0
 
     @property
     def is_upright(self) -> bool:
@@ -56,7 +58,7 @@ class Request:
     def key(self) -> tuple[Any, ...]:
         """Equal where the same is asked of two parts. A structure that is given may be of choices on that part."""
         given = id(self.structure) if self.main == "balanced" and self.structure is not None else None
-        asked = self.main, self.poles, self.evenness, self.direction, self.coefficients, self.options
+        asked = self.main, self.poles, self.evenness, self.direction, self.coefficients, self.options, self.effort
         return given, *_plain(asked)
 
 
@@ -67,6 +69,7 @@ class MeshRequest:
     amounts, phases : factor and phase (radians) of the share of each form in balanced maps; where some change them,
         maps of more than `MIXED_EVENED` triangles are not evened
     options : further ones of `Structure.tile`
+    effort : as in `automatic_map`
     """
 
     main: str = "automatic"
@@ -80,6 +83,7 @@ class MeshRequest:
     amounts: Sequence[float] = ()
     phases: Sequence[float] = ()
     options: Mapping[str, Any] = field(default_factory=dict)
+    effort: float = 1.0
 
     def of_part(self, part: Surface, structure: AnyStructure | None = None, main: str | None = None) -> Request:
         """The `Request` for a part. main : another than that of all parts"""
@@ -94,7 +98,8 @@ class MeshRequest:
         marked = None if self.marked is None else edges_on_part(part, integer(self.marked, "marked", 2, (2,)))
         options = {**self.options, "allowed": allowed, "moves": moves, "marked": marked}
         options["cones"] = self._cones_on(part)
-        return Request(part, structure, main or self.main, poles, self.evenness, self.direction, options=options)
+        chosen = {"options": options, "effort": self.effort}
+        return Request(part, structure, main or self.main, poles, self.evenness, self.direction, **chosen)
 
     def of_structure(self, part: PartStructure) -> Request:
         """The `Request` for a part; "automatic" is "balanced" where its structure was chosen, or without area."""

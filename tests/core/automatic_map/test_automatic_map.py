@@ -11,6 +11,7 @@ import pytest
 from families import cylinder, geodesic_sphere, hemisphere, torus, united
 from holomorph.__main__ import main
 from holomorph.cutting.island_map import IslandSearch
+from holomorph.maps.budget import Budget
 from holomorph.maps.request import EVENNESS, Request
 from holomorph.maps.tiling_search import TilingSearch
 from holomorph.quality.quality import Quality
@@ -97,10 +98,10 @@ def test_a_tiling_that_loses_much_is_refused_and_the_best_other_map_is_not():
             self.tile = lambda **_options: SimpleNamespace(quality=quality, uv=uv)
 
     request = Request(surface, main="seamless", poles=2)
-    (made,) = TilingSearch(surface, Losing(0.01), request).of_density(1.0, 1, None)
+    (made,) = TilingSearch(surface, Losing(0.01), request, Budget(1)).of_density(1.0, 1, None)
     assert made.quality.lost_part == 0.01
     with pytest.raises(holomorph.TopologyError, match="would lose 3 % of its area"):
-        TilingSearch(surface, Losing(0.03), request).of_density(1.0, 1, None)
+        TilingSearch(surface, Losing(0.03), request, Budget(1)).of_density(1.0, 1, None)
     made = holomorph.automatic_map(surface_of(families.saw_blade()), main="untiled")
     assert made.kind == "flat" and made.quality.density_ratio == pytest.approx(1) and made.quality.lost_part == 0
     assert holomorph.automatic_map(surface_of(families.cube()), main="untiled").kind == "islands"

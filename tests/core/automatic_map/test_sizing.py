@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from holomorph import Quality, Surface, automatic_map, automatic_maps, automatic_structure
 from holomorph.maps.arrangement import arranged
+from holomorph.maps.budget import Budget
 from holomorph.maps.map import Map
 from holomorph.maps.map_objects import map_objects
 from holomorph.maps.request import Request
@@ -94,7 +95,7 @@ def test_more_poles_are_tried_where_the_map_is_less_even_than_foretold(seed):
     stages = []
 
     def found(evenness):
-        search = TilingSearch(surface, structure, Request(surface, main="seamless", evenness=evenness))
+        search = TilingSearch(surface, structure, Request(surface, main="seamless", evenness=evenness), Budget(1, 1e6))
         (made,) = search.of_density(60 / surface.area, 1, lambda _fraction, stage: stages.append(stage))
         return made
 
