@@ -150,6 +150,9 @@ class HOLOMORPH_OT_follow(Explained, bpy.types.Operator):
             self.cancel(context)
             _end(obj, context, native.sentence(error))
             return {"CANCELLED"}
+        except BaseException:
+            self.cancel(context)
+            raise
 
     def _tick(self, obj, context):
         now = stored_dials.of(obj)
@@ -180,7 +183,9 @@ class HOLOMORPH_OT_follow(Explained, bpy.types.Operator):
     def cancel(self, context):
         self._stop()
         HOLOMORPH_OT_follow.active = None
-        context.window_manager.event_timer_remove(self._timer)
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
         redraw_sidebars(context)
 
 

@@ -106,4 +106,24 @@ def escape():
     seen["escape: as before"] = is_same(state(), before)
 
 
-run((prepare, live, slow, escape), seen)
+def fault():
+    """An error that nobody expects, and then another map."""
+    follow = addon("operators.follow")
+    before, making = state(), follow._Making
+    follow.LIVE_SECONDS, follow.REST_SECONDS = -1.0, 0.1
+
+    def fail(_obj):
+        follow._Making = making
+        raise MemoryError("planted")
+
+    follow._Making = fail
+    obj().holomorph_map.evenness = 0.2
+    yield from wait_until(lambda: follow._Making is making)
+    yield 0.3
+    seen["fault: map stays"] = bool(np.array_equal(uv(), before[1])) and is_behind()
+    obj().holomorph_map.evenness = 0.3
+    yield from wait_until(lambda: not is_behind())
+    seen["fault: the next map follows"] = not np.array_equal(uv(), before[1])
+
+
+run((prepare, live, slow, escape, fault), seen)
