@@ -37,7 +37,7 @@ Placement place(const std::shared_ptr<mesh::Surface>& surface, std::optional<int
   tiling::PoleOptions options{
       count, std::move(vertices), {allowed.begin(), allowed.end()}, straight, std::move(labels), {solver}, evened};
   return unlocked(threads, progress,
-                  [&](Execution& execution) { return tiling::place(surface, options, like, execution); });
+                  [&](Execution& execution) { return tiling::place(surface, options, execution, like); });
 }
 
 Tiling tile(const Placement& placement, double tiles, const std::array<std::complex<double>, 2>& lattice,

@@ -65,8 +65,8 @@ bool is_alike(const Placement& other, const mesh::Surface& surface, const PoleOp
 
 }  // namespace
 
-Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, const Placement* like,
-                Execution& execution) {
+Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, Execution& execution,
+                const Placement* like) {
   const auto type = mesh::topological_type(*surface);
   const bool straight = !type.closed() && (options.straight || type.genus > 0);
   const auto kind = straight ? uv::Coefficients::real : uv::Coefficients::complex;

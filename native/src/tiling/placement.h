@@ -54,8 +54,8 @@ struct Placement {
 /// @param like null, or a placement on the same surface, whose bases and balanced form are taken where they are the
 /// same
 /// @pre connected, no isolated vertices. @throws TopologyError for poles that do not fit; SolverError; Cancelled
-Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, const Placement* like,
-                Execution& execution);
+Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, Execution& execution,
+                const Placement* like = nullptr);
 
 /// Returns the seamless maps with poles at these vertices. @throws TopologyError for poles that do not fit;
 /// SolverError; Cancelled
