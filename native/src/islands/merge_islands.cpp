@@ -47,6 +47,11 @@ class Nets {
   // Where a corner is after all motions.
   Complex at(int corner) const { return motions_[island_at(corner)](Complex(uv_(corner, 0), uv_(corner, 1))); }
 
+  void report(double done) {
+    done_ = done;
+    execution_.report(done_);
+  }
+
   void join(Joint joint) {
     int one = net_[island_at(joint[0])], other = net_[island_at(joint[2])];
     if (one == other || sizes_[one] + sizes_[other] > kMostTriangles) return;
@@ -102,6 +107,7 @@ class Nets {
       const Box box = box_of(t);
       if (found || !box.meets(all)) return;
       Execution::count(static_cast<double>(arriving.size()));
+      execution_.report(done_);
       found = std::any_of(arriving.begin(), arriving.end(),
                           [&](const Points& other_t) { return box.meets(box_of(other_t)) && overlap(t, other_t); });
     });
@@ -123,6 +129,7 @@ class Nets {
   const uv::UvArray& uv_;
   const std::vector<char>& is_held_;
   Execution& execution_;
+  double done_ = 0;  // part of the work
   std::vector<int> corner_islands_;
   std::vector<std::vector<int>> triangles_, islands_;  // in each island; in each net
   std::vector<Motion> motions_;                        // each island's
@@ -148,7 +155,7 @@ std::vector<int> joined(const mesh::Surface& surface, uv::UvArray& uv, const std
   Nets nets(surface, flat, is_held, execution);
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const Joint& joint = joints[k];
-    execution.report(static_cast<double>(k) / static_cast<double>(joints.size()));
+    nets.report(static_cast<double>(k) / static_cast<double>(joints.size()));
     if (is_joinable[nets.island_at(joint[0])] && is_joinable[nets.island_at(joint[2])]) nets.join(joint);
   }
   for (int c = 0; c < static_cast<int>(flat.rows()); ++c) uv.row(c) << nets.at(c).real(), nets.at(c).imag();

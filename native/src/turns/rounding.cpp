@@ -57,7 +57,7 @@ Complex turned_by(const TurnLattice& lattice, int r) {
   return lattice.at(turn(0, 0), turn(1, 0));
 }
 
-NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& space, bool turns)
+NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& space, bool turns, Execution& execution)
     : unknowns_(space.unknowns), turns_(turns), area_(net.whole_area) {
   const int count = unknowns_.count;
   const auto integers = space.offset.cols();
@@ -114,6 +114,7 @@ NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& 
   for (int i = 0; i < count; ++i) entries.emplace_back(i, i, kRegular * trace / std::max(count, 1));
   Eigen::SparseMatrix<double> lower(count, count);
   lower.setFromTriplets(entries.begin(), entries.end());
+  execution.report(1);
   solving_->factor.compute(lower, {});
   rhs_.resize(count, wanted_columns + integers);
   rhs_.setFromTriplets(on_right.begin(), on_right.end());
@@ -121,6 +122,7 @@ NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& 
   g_ = QT - (rhs_.transpose() * y).bottomRows(integers);
   MatrixXd S = QQ.real();
   for (Eigen::Index first = 0; first < integers; first += kColumns) {
+    execution.report(1);
     const Eigen::Index some = std::min<Eigen::Index>(kColumns, integers - first);
     const MatrixXd x = solving_->factor.solve(MatrixXd(rhs_.middleCols(wanted_columns + first, some)));
     S.middleCols(first, some) -= (rhs_.transpose() * x).bottomRows(integers);

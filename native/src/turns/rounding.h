@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "base/execution.h"
 #include "solver/direct/sparse_cholesky.h"
 #include "turns/level_field.h"
 #include "turns/turned_space.h"
@@ -18,7 +19,7 @@ class NearestMap {
  public:
   /// @param turns whether the map may be turned from its frames: where it has lines it may not
   /// @throws SolverError @pre the others outlive it
-  NearestMap(const Net& net, const Frames& frames, const TurnedSpace& space, bool turns);
+  NearestMap(const Net& net, const Frames& frames, const TurnedSpace& space, bool turns, Execution& execution);
 
   /// A factor and whole numbers; error: how far they are from the map without whole numbers, over |f|^2 and the area,
   /// and the price of another size than the one asked for.

@@ -140,7 +140,8 @@ std::vector<Jump> jumps_of(const mesh::Surface& surface, const Net& net, const F
 class PlacedCones {
  public:
   // Frames, and the space of the maps with these cones.
-  PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, std::vector<int> missing);
+  PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, std::vector<int> missing,
+              Execution& execution);
   // The cones and frames of a field that runs along lines.
   PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, const Lines& lines,
               Execution& execution);
@@ -178,13 +179,13 @@ class PlacedCones {
 };
 
 PlacedCones::PlacedCones(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options,
-                         std::vector<int> missing)
+                         std::vector<int> missing, Execution& execution)
     : surface_(std::move(surface)),
       net_(*surface_),
       missing_(std::move(missing)),
       frames_(levelled(make_frames(*surface_, net_, options.k, missing_), options)),
       space_(make_space(net_, frames_, options.k, missing_, false)),
-      nearest_(net_, frames_, space_, true),
+      nearest_(net_, frames_, space_, true, execution),
       along_(options.along) {}
 
 Frames PlacedCones::levelled(Frames frames, const ConeOptions& options) const {
@@ -208,7 +209,7 @@ PlacedCones::PlacedCones(std::shared_ptr<const mesh::Surface> surface, const Con
       net_(*surface_, lines.edges),
       frames_(lined_frames(*surface_, net_, options, missing_, execution)),
       space_(make_space(net_, frames_, options.k, missing_, lines.are_whole)),
-      nearest_(net_, frames_, space_, false),
+      nearest_(net_, frames_, space_, false, execution),
       along_(options.along) {}
 
 evening::Kept PlacedCones::kept() const {
@@ -332,7 +333,7 @@ std::vector<int> cones_of(const std::shared_ptr<const mesh::Surface>& surface, c
   std::pair<double, double> least;
   for (const Cones& cones : found) {
     execution.report(1);
-    const PlacedCones placed(coarse.surface, wanted, cones.missing);
+    const PlacedCones placed(coarse.surface, wanted, cones.missing, execution);
     const std::pair<double, double> strain = placed.badness(wanted.tiles, evening::kUsualEvenness, execution);
     if (best == nullptr || strain < least) least = strain, best = &cones;
   }
@@ -357,9 +358,9 @@ const PlacedCones& TurnedMaps::placed(int level, Execution& execution) {
     wanted.tiles *= std::exp2(-level);
     if (!chosen_.empty()) {
       std::vector<int> missing = with_holes(Net(*surface_), wanted.k, chosen_, execution);
-      found = std::make_unique<PlacedCones>(surface_, wanted, std::move(missing));
+      found = std::make_unique<PlacedCones>(surface_, wanted, std::move(missing), execution);
     } else if (lines_.edges.empty()) {
-      found = std::make_unique<PlacedCones>(surface_, wanted, cones_of(surface_, wanted, execution));
+      found = std::make_unique<PlacedCones>(surface_, wanted, cones_of(surface_, wanted, execution), execution);
     } else {
       found = std::make_unique<PlacedCones>(surface_, wanted, lines_, execution);
     }

@@ -8,12 +8,14 @@ import costly
 import holomorph
 import numpy as np
 import pytest
+from families import torus
 from holomorph import Surface, _native, automatic_map, automatic_maps, island_map
 from holomorph.mesh.copies import copies
 from holomorph.quality.overlap import overlapping_part
 
 MOST = 1.4  # exponent of growth
 MOST_BYTES = 70_000_000  # half a million crossings
+SILENT = 1e8  # operations between two calls of the progress function, which may cancel: about 0.1 s
 PACKAGE = holomorph.__path__[0]
 
 
@@ -52,6 +54,11 @@ def peak(work):
         tracemalloc.stop()
 
 
+def wheel():
+    mesh = torus(120, 60)
+    return Surface.from_polygons(mesh.vertices, mesh.corners, mesh.offsets)
+
+
 FUNCTIONS = {
     "maps": lambda surface: automatic_maps(surface.components, threads=1),
     "copies": lambda surface: copies(surface.components),
@@ -82,6 +89,20 @@ def test_cost_grows_with_the_size(shape, function, measure, size):
 def test_hundreds_of_loops_cost_no_more_than_their_triangles(make, size):
     small, large = (operations(lambda n=n: automatic_map(Surface(*make(n)), threads=1)) for n in (size, 4 * size))
     assert large <= small * 4**MOST
+
+
+@pytest.mark.parametrize("shape", [*costly.SHAPES, "torus"])
+def test_a_search_can_be_cancelled_soon(shape):
+    surface = Surface(*costly.SHAPES[shape](4000)) if shape in costly.SHAPES else wheel()
+    calls = [_native.work()]
+
+    def hear(*_progress):
+        calls.append(_native.work())
+        return True
+
+    automatic_map(surface.components[0], turns=4, threads=1, progress=hear)
+    calls.append(_native.work())
+    assert np.diff(calls).max() < SILENT
 
 
 def test_lines_across_a_star_are_few():
