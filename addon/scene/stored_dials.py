@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The dials that objects store: a property group of each, from which buttons start and to which runs write back."""
 
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 
 import bpy
 
@@ -69,12 +69,11 @@ def forget(obj):
 
 @contextmanager
 def quietly():
-    """While nothing follows a dial."""
-    _quiet.append(True)
-    try:
+    """While nothing follows a dial. What was before comes back whatever is interrupted: else no map followed any more."""
+    with ExitStack() as stack:
+        stack.callback(_quiet.__setitem__, slice(None), list(_quiet))
+        _quiet.append(True)
         yield
-    finally:
-        _quiet.pop()
 
 
 def are_quiet():
