@@ -92,7 +92,7 @@ constexpr Eigen::Index kRows = 512;
 
 #ifdef HOLOMORPH_WITH_OPENBLAS
 
-bool is_small(Eigen::Index n) { return n <= kSmall; }
+bool is_small(Eigen::Index n, Eigen::Index most = kSmall) { return n <= most; }
 int as_int(Eigen::Index n) { return static_cast<int>(n); }
 
 void multiply(char of_b, const Block& A, const Block& B, double beta, Eigen::Ref<MatrixXd, 0, Eigen::OuterStride<>> C) {
@@ -154,7 +154,7 @@ bool decompose_large(MatrixXd& A, VectorXd& eigenvalues) {
 
 #else
 
-bool is_small(Eigen::Index) { return true; }
+bool is_small(Eigen::Index, Eigen::Index = kSmall) { return true; }
 void multiply(char, const Block&, const Block&, double, Eigen::Ref<MatrixXd, 0, Eigen::OuterStride<>>) {}
 void multiply_rows(char, const MatrixXd&, Eigen::Index, Eigen::Index, const MatrixXd&, MatrixXd&) {}
 void solve_triangular(char, const MatrixXd&, MatrixXd&) {}
@@ -204,17 +204,17 @@ MatrixXd thin_transposed_product(const MatrixXd& A, const MatrixXd& Y) {
 }
 
 bool factorise(MatrixXd& A) {
-  if (!is_small(A.rows())) return factorise_large(A);
+  if (!is_small(A.rows(), kSmallFactor)) return factorise_large(A);
   return Eigen::LLT<Eigen::Ref<MatrixXd>>(A).info() == Eigen::Success;
 }
 
 void solve_lower(const MatrixXd& L, MatrixXd& B) {
-  if (!is_small(L.rows())) return solve_triangular('N', L, B);
+  if (!is_small(L.rows(), kSmallFactor)) return solve_triangular('N', L, B);
   L.triangularView<Eigen::Lower>().solveInPlace(B);
 }
 
 void solve_upper(const MatrixXd& L, MatrixXd& B) {
-  if (!is_small(L.rows())) return solve_triangular('T', L, B);
+  if (!is_small(L.rows(), kSmallFactor)) return solve_triangular('T', L, B);
   L.transpose().triangularView<Eigen::Upper>().solveInPlace(B);
 }
 

@@ -18,6 +18,9 @@ class OneBlasThread {
 
 /// Matrices of at most this many rows are left to Eigen: a call of BLAS costs more than it saves.
 inline constexpr Eigen::Index kSmall = 32;
+/// Likewise for Cholesky factors: the coarsest levels of multigrid are no larger, and Eigen's bits are the same on any
+/// processor. On a ring of thin triangles OpenBLAS's lost two digits.
+inline constexpr Eigen::Index kSmallFactor = 256;
 
 /// A block of a matrix that is stored by columns.
 using Block = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
