@@ -10,7 +10,9 @@ from loaded_addon import module
 from presses import MODES, PRESSES, maps, prepared, tile
 from scenes import two_objects
 
-pytestmark = pytest.mark.usefixtures("kept_solves")
+# The same lines run in every Blender: in newer ones they are tried on demand, and all of them by the suite injection.
+ON_DEMAND = [pytest.mark.long] if bpy.app.version >= (4, 0) else []
+pytestmark = [pytest.mark.usefixtures("kept_solves"), *ON_DEMAND]
 SEED, AT_RANDOM = 45, 6  # operators in each mode, and lines of each
 EDITED = "maps", "tile", "heat", "restore", "remove", "bad", "stretched", "repair"
 
