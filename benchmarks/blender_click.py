@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one button, and *Seamless Tiling*, beside Smart UV Project and Unwrap along Smart UV's seams, on every mesh object
+"""The one button and *Seamless Tiling* beside Smart UV Project and Unwrap along Smart UV's seams, on every mesh object
 of files, or on irregular surfaces of genus 2.
 
     blender -b --factory-startup --python-exit-code 1 --python benchmarks/blender_click.py -- \\

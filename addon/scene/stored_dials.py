@@ -69,7 +69,7 @@ def forget(obj):
 
 @contextmanager
 def quietly():
-    """While nothing follows a dial. What was before comes back whatever is interrupted: else no map followed any more."""
+    """While nothing follows a dial. What was before comes back whatever is interrupted: else no map would follow."""
     with ExitStack() as stack:
         stack.callback(_quiet.__setitem__, slice(None), list(_quiet))
         _quiet.append(True)
