@@ -104,7 +104,8 @@ class MapSearch:
 
     def _tried(self, density, tries, leads, progress):
         best, tilings = self._flat, []
-        if self._is_long:
+        is_long = self._is_long
+        if is_long:
             best = self._quick(density, tries if leads else 0, progress) or best
             times = FAR if best and best.cost >= POOR else 1.0
             if best and not self._budget.goes_on(self._tilings.expected_work, times):
@@ -114,8 +115,9 @@ class MapSearch:
             if self._request.main == "seamless":
                 return tilings
             best = self._least(best, tilings and nearest(tilings, density), why, scaled(progress, TILING, TILING))
-        tries, step = tries if leads else 0, scaled(progress, TILING, 1.0)
-        best = self._in_pieces(best, density, tries, window_around(), step) or best
+        if not is_long:  # else they were tried
+            tries, step = tries if leads else 0, scaled(progress, TILING, 1.0)
+            best = self._in_pieces(best, density, tries, window_around(), step) or best
         return [self._said(made) for made in (tilings if best in tilings else [best])]
 
     @property
