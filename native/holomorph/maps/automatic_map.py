@@ -67,7 +67,7 @@ def automatic_map(
     evenness : from 0 for a conformal map to 1 for squares of nearly one size; see `Structure.tile`
     effort : how much work may be spent on better maps, over the usual amount: some 5 s of one processor at 20,000
         triangles. The first map is made in any case, and `Map.why` says where others were not tried; 100 tries
-        nearly all. The same on any machine
+        nearly all. Counted, not timed
     threads : as in `conformal_structure`
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 

@@ -11,8 +11,8 @@ ANY, EACH, MANY = 1e9, 2e5, 100_000
 
 
 class Budget:
-    """The work that the search for the map of one part may take, as the native core counts it: the same on any machine
-    and at any number of threads. What is found first is kept, however long it took.
+    """The work that the search for the map of one part may take, as the native core counts it: not by the clock, and
+    the same at any number of threads. What is found first is kept, however long it took.
 
     Counts within `with`, which may be nested, on one thread at a time.
 

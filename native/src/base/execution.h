@@ -16,7 +16,7 @@ namespace holomorph {
 
 /// One object is handed down through all stages of a computation. It reports how far the work has come, at most every
 /// 20 ms and never backwards, and throws Cancelled when the caller's function answers false. It also counts the work in
-/// operations, the same on any machine. Not thread-safe: only the thread that began the work calls it, never a worker.
+/// operations. Not thread-safe: only the thread that began the work calls it, never a worker.
 class Execution {
  public:
   /// `fraction` in [0, 1] of the whole work, `stage` a short name; the answer false cancels.
@@ -48,8 +48,8 @@ class Execution {
   /// Adds operations, of about a nanosecond each, to `work`. Like the rest called by the thread that began the work.
   static void count(double operations);
 
-  /// What was counted on the calling thread. Two calls before and after a computation tell what it took, the same on
-  /// any machine and at any number of threads.
+  /// What was counted on the calling thread. Two calls before and after a computation tell what it took, the same at
+  /// any number of threads; on another machine last bits, and so numbers of iterations, may differ.
   static std::uint64_t work();
 
   /// In a loop: counts a step, and reports every 4096th of `count` steps, which together are the part [from, to] of the
