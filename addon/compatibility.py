@@ -138,6 +138,11 @@ def objects_being_edited(context):
     return [o for o in objects if o.type == "MESH"]
 
 
+def shows_tab(region, name):
+    """Whether a sidebar shows this tab, as far as Blender tells."""
+    return region.type == "UI" and getattr(region, "active_panel_category", "") == name
+
+
 def copy_auto_smooth(source, target):
     """Auto smooth of one mesh for another, where there is such a setting (until 4.0)."""
     if hasattr(source, "use_auto_smooth"):

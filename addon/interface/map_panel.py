@@ -4,17 +4,22 @@
 import bpy
 
 from .. import native, preferences
-from ..operators import drag
+from ..operators import drag, follow
 from ..operators.dials import HOLOMORPH_OT_quarter
 from ..operators.dials_view import dial, draw_texture, row
 from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
-from ..operators.mixins import CONVERT, CONVERTIBLE
+from ..operators.mixins import CONVERT, CONVERTIBLE, WorkOperator
 from ..operators.properties import FORMS, UNLINED
+from ..operators.stop import HOLOMORPH_OT_stop
+from ..operators.symmetric import HOLOMORPH_OT_make_symmetric
 from ..overlays import overlay
 from ..scene import stored_dials
 from . import lines
 
 UNTILED = {"BALANCED", "ISLANDS"}  # values of the dial of seams without tiles that fit together
+SECONDS_EACH = 1.2e-4  # for each triangle: some 12 s at 100,000, which docs/performance.md measures
+LONG = 5  # seconds from which on they are told before
+NARROW = 240  # pixels of a sidebar in which other words need the room of a fraction
 TURNED = {2: "½", 4: "¼", 6: "⅙"}
 
 
@@ -47,6 +52,8 @@ class MapPanel:
         button = layout.row(align=True)
         button.scale_y = 1.5
         _draw_button(button, is_edited or is_behind)
+        layout = layout.column()
+        layout.enabled = not is_blocked()
         if native.problem():
             lines.draw(layout.column(align=True), context, native.problem(), "ERROR")
         elif obj is not None and obj.type in CONVERTIBLE:
@@ -54,11 +61,16 @@ class MapPanel:
         elif obj is not None and obj.type == "MESH":
             dials = getattr(obj, stored_dials.NAME)
             _draw_dials(layout.column(), context, dials, text)
-            _draw_note(layout.column(align=True), context, obj, dials)
+            _draw_note(layout.column(align=True), context, obj, dials, is_edited or is_behind or not text)
             if text:
                 from . import verdict_view
 
                 verdict_view.draw(layout, context, text, is_edited)
+
+
+def is_blocked():
+    """Whether work is going on during which nothing may be changed."""
+    return WorkOperator.running is not None and follow.HOLOMORPH_OT_follow.active is None
 
 
 def _report(obj):
@@ -89,8 +101,6 @@ def _is_behind(obj, text):
 
 
 def _draw_button(layout, is_update):
-    from ..operators.mixins import WorkOperator
-
     running = WorkOperator.running
     if running is None:
         text = "Update Map" if is_update else HOLOMORPH_OT_maps.bl_label
@@ -98,6 +108,7 @@ def _draw_button(layout, is_update):
         layout.menu(HOLOMORPH_MT_make.__name__, text="", icon="DOWNARROW_HLT")
     elif bpy.app.version >= (4, 0):
         layout.progress(text="Making Map (ESC stops)", factor=running.watch.fraction)
+        layout.operator(HOLOMORPH_OT_stop.bl_idname, text="", icon="X")
     else:
         layout.label(text=f"Making Map: {running.watch.fraction:.0%} (ESC stops)")
 
@@ -106,18 +117,18 @@ def _draw_dials(layout, context, dials, text):
     draw_texture(layout, dials)
     is_tiled = dials.main not in UNTILED
     name = "size" if dials.by_size or not is_tiled else "tiles"
-    made = dial(layout, dials, name, f"{name}_shown")
-    if is_tiled:
-        made.prop(dials, "by_size", text="", icon="DRIVER_DISTANCE")
+    _draw_count(layout, dials, name)
     dial(layout, dials, "evenness", slider=True)
     if not is_tiled:
         return
     found = _found(text)
     made = dial(layout, dials, "turns")
-    if found.turns in TURNED:
+    if found.turns in TURNED and context.region.width > NARROW * context.preferences.system.ui_scale:
         end = made.row(align=True)
         end.ui_units_x = 1
         end.label(text=TURNED[found.turns])
+    if text and shows_turns(text):
+        made.operator(HOLOMORPH_OT_make_symmetric.bl_idname, text="", icon="MOD_MIRROR")
     made = dial(layout, dials, "direction")
     made.operator(HOLOMORPH_OT_quarter.bl_idname, text="", icon="DRIVER_ROTATIONAL_DIFFERENCE")
     if found.points:
@@ -129,17 +140,49 @@ def _draw_dials(layout, context, dials, text):
         made.prop(context.window_manager, overlay.MARKS, text="", icon="HIDE_OFF" if is_shown else "HIDE_ON")
 
 
+def shows_turns(text):
+    """Whether the texture shows where the map turns, and may be made symmetric."""
+    from ..results import symmetric
+
+    return symmetric.shown_turns(text) > 0
+
+
+def _draw_count(layout, dials, name):
+    """The row of the tiles or of their size: a number, or where there is none yet, a button that gives one."""
+    switch = {"tiles": "by_count", "size": "by_size"}[name]
+    if getattr(dials, switch):
+        made = dial(layout, dials, name, f"{name}_shown")
+    else:
+        made = dial(layout, dials, name, switch, text="Automatic", toggle=True)
+    if dials.main not in UNTILED:
+        made.prop(dials, "by_size", text="", icon="DRIVER_DISTANCE")
+
+
 def _found(text):
     from ..results import stored
 
     return stored.found(text)
 
 
-def _draw_note(layout, context, obj, dials):
+def _draw_note(layout, context, obj, dials, is_to_make):
+    seconds = _expected_seconds(context) if is_to_make else 0
     if dials.refused:
         lines.draw(layout, context, dials.refused, "ERROR")
     elif obj.modifiers and not len(obj.data.polygons) and not dials.modifiers:
         lines.draw(layout, context, "Its faces come only from modifiers: switch With Modifiers on", "INFO")
+    elif seconds >= LONG and WorkOperator.running is None:
+        lines.draw(layout, context, f"Takes about {in_words(seconds)}", "TIME")
+
+
+def _expected_seconds(context):
+    """What the button takes for the selected meshes, on a computer of today."""
+    meshes = {one.data for one in context.selected_objects if one.type == "MESH"}
+    return SECONDS_EACH * sum(len(mesh.loops) - 2 * len(mesh.polygons) for mesh in meshes)
+
+
+def in_words(seconds):
+    unit, name = (60, "min") if seconds >= 60 else (1, "s")
+    return f"{float(f'{seconds / unit:.1g}'):.0f} {name}"
 
 
 class AdvancedPanel:

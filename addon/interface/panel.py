@@ -15,6 +15,7 @@ from ..operators import (
     tools,
 )
 from ..operators.mapping import HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
+from ..operators.mixins import TAB
 from ..overlays import overlay
 from . import lines, map_panel, menus
 
@@ -23,12 +24,13 @@ INDENT = 8  # spaces before what is continued on a further line
 
 class _Panel:
     bl_label = "Holomorph"
-    bl_category = "Holomorph"
+    bl_category = TAB
     bl_region_type = "UI"
 
 
 class _MapPanel(map_panel.MapPanel, _Panel):
     def draw_header_preset(self, _context):
+        self.layout.enabled = not map_panel.is_blocked()
         menus.HOLOMORPH_PT_presets.draw_panel_header(self.layout)
 
 
@@ -134,11 +136,22 @@ def _draw_menu_entry(self, _context):
     self.layout.operator(elements.HOLOMORPH_OT_repair.bl_idname)
 
 
+def _while_free(draw):
+    """A panel's `draw`; what it draws cannot be pressed while work is going on."""
+
+    def draw_it(self, context):
+        self.layout.enabled = not map_panel.is_blocked()
+        draw(self, context)
+
+    return draw_it
+
+
 def _panels(name, space):
     """The panels of one kind of editor."""
 
     def made(base, end="", parent=""):
         settings = {"bl_space_type": space} | ({"bl_parent_id": parent} if parent else {})
+        settings |= {"draw": _while_free(base.draw)} if base is not _MapPanel else {}
         return type(name + end, (base, bpy.types.Panel), settings)
 
     return [

@@ -6,11 +6,10 @@ import math
 import re
 from typing import NamedTuple
 
-from ..results import stored, symmetric
+from ..results import stored
 from . import lines
 
-SYMMETRIC, TILE, BAKE = "uv.holomorphic_make_symmetric", "uv.holomorphic_tile", "object.holomorphic_bake"
-SHOWN_TURNS = "The texture shows where it turns"
+TILE, BAKE = "uv.holomorphic_tile", "object.holomorphic_bake"
 EDITED = "Before the last edit:"
 TILES_OVERLAP = "Tiles lie on top of each other"
 UNSAID = re.compile(r"\b(poles?|cones?|turns)\b")  # what the row of the points and that of the turns show
@@ -36,9 +35,6 @@ def draw(layout, context, text, is_edited=False):
         if judged.purpose == "bake" and read_of.is_tiled:
             column.operator(BAKE, icon="RENDER_STILL")
         column.separator()
-    if symmetric.shown_turns(text):
-        lines.draw(column, context, SHOWN_TURNS, "INFO")
-        column.operator(SYMMETRIC)
     if read_of.places:
         lines.draw(column, context, read_of.places, "BLANK1")
         pressed = column.operator(TILE, text="Try Points There")

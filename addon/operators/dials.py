@@ -10,6 +10,7 @@ from ..scene import stored_dials
 from .mixins import OnMeshes
 from .properties import ABOUT, Dials
 
+USUAL_TILES = 100  # of an object without a map, where a number is asked for
 ACROSS = 10  # tiles over the largest dimension of an object without a map, where sizes are asked for
 NO_DIAL = {"HIDDEN", "SKIP_SAVE"}
 
@@ -43,6 +44,14 @@ def _get_size(group):
 
 def _set_size(group, value):
     group.size = value
+
+
+def _get_by_count(group):
+    return _get_tiles(group) > 0
+
+
+def _set_by_count(group, value):
+    group.tiles = USUAL_TILES if value else 0
 
 
 def _get_by_size(group):
@@ -79,6 +88,13 @@ class HOLOMORPH_map(bpy.types.PropertyGroup):
             precision=3,
             get=_get_size,
             set=_set_size,
+            options=NO_DIAL,
+        ),
+        "by_count": BoolProperty(
+            name="By Number",
+            description="Give the number of tiles in place of one that suits the object",
+            get=_get_by_count,
+            set=_set_by_count,
             options=NO_DIAL,
         ),
         "by_size": BoolProperty(

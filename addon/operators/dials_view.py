@@ -5,7 +5,7 @@ import bpy
 
 from .properties import OWN_TEXTURES, Dials
 
-LABEL = 0.34  # of the width of a row
+LABEL = 0.38  # of the width of a row: the words of other languages are longer
 
 
 def row(layout, label):

@@ -27,7 +27,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
     left_modes = frozenset()  # the poles are shown in object mode alone
     moves: StringProperty(
         name="Moves",
-        description='Poles to move, as pairs of a number in the report and a vertex: "0:512 3:77"',
+        description='Points to move, as pairs of a number in the report and a vertex: "0:512 3:77"',
         default="",
         options={"SKIP_SAVE"},
     )
@@ -155,7 +155,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         done = [part.tiling for part in self._session.mapped.tiled]
         added = max(made.added_distortion for made in done)
         size = max(made.size_range for made in done)
-        if self._session.noun == "cone":
+        if self._session.are_cones:
             return f"size range {size:.3g}, angle distortion {max(made.quality.mean_angle for made in done):.3g}"
         return f"angle distortion added by whole tiles: {added:.4f}, size range {size:.3g}"
 
@@ -188,7 +188,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         session, poles = self._session, self._session.poles
         for pole, vertex in self._wanted.items():
             poles[pole] = vertex
-        overlay.dragged[self._object.name] = overlay.Dragged(poles, session.zeros, self._hovered, session.noun)
+        overlay.dragged[self._object.name] = overlay.Dragged(poles, session.zeros, self._hovered, session.are_cones)
         context.area.tag_redraw()
 
 

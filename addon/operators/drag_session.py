@@ -25,11 +25,11 @@ class Session:
         text = obj.get(report.PROPERTY)
         if stored.parsed(text).get("is_selection"):
             raise ValueError(
-                f"{obj.name}: poles can be dragged only where the whole mesh was tiled, not selected faces"
+                f"{obj.name}: points can be dragged only where the whole mesh was tiled, not selected faces"
             )
         other = stored.parsed(text).get("scale_of")
         if other:
-            raise ValueError(f"{obj.name}: drag the poles on {other}: its mesh was tiled in the scale of that object")
+            raise ValueError(f"{obj.name}: drag the points on {other}: its mesh was tiled in the scale of that object")
         dials = request.Values(**stored_dials.of(obj))
         self.target, self._map = targets.collect([obj], request.choices(dials))[0], uv_maps.main_map(obj.data)
         if not text or self.target.refused or self._map not in obj.data.uv_layers:
@@ -39,7 +39,7 @@ class Session:
         own, _ = request.own_texture(dials)
         self._options, self._write_options = request.Run(dials, [self.target], own, goes_on=True).only
         self._asked = self._options.tiling
-        self._are_cones, self._earlier = len(stored.cones(text)) > 0, request.moved_points(dials, self.target)
+        self.are_cones, self._earlier = len(stored.cones(text)) > 0, request.moved_points(dials, self.target)
         self._count = points.asked_count(dials)
         self._task = targets.tasks([self.target])[0]
         self.mapped = None
@@ -49,7 +49,7 @@ class Session:
             reasons = [part.skipped or part.not_seamless for part in self.mapped.parts]
             raise ValueError(f"{obj.name}: {'; '.join(filter(None, reasons))}")
         vertices, is_pole = stored.marks(text)
-        if not np.array_equal(self.poles, stored.cones(text) if self._are_cones else vertices[is_pole]):
+        if not np.array_equal(self.poles, stored.cones(text) if self.are_cones else vertices[is_pole]):
             raise ValueError(f"{obj.name}: its mesh has changed since it was tiled; {AGAIN}")
         self._uv, self._is_shown = uv_maps.read_map(obj.data, self._map), False
         self._parts = [part.component.surface.vertex_index for part in self._tiled(self.mapped)]
@@ -59,7 +59,7 @@ class Session:
     @property
     def poles(self):
         """(n,) vertices of the object, where they are now; or the cones of a map that turns."""
-        if self._are_cones and self.mapped is not self._first:
+        if self.are_cones and self.mapped is not self._first:
             return np.array([vertex for vertex, _ in self.mapped.options.tiling.cones])
         return np.concatenate([part.vertices(own) for part, own in zip(self._tiled(self.mapped), self._own)])
 
@@ -71,7 +71,7 @@ class Session:
     @property
     def _own(self):
         """The poles of each part with a tiling, or the cones, as the part counts vertices."""
-        name = "cones" if self._are_cones else "poles"
+        name = "cones" if self.are_cones else "poles"
         return [getattr(part.tiling, name) for part in self._tiled(self._first)]
 
     @property
@@ -91,17 +91,13 @@ class Session:
             if index < len(own):
                 return number, index
             index -= len(own)
-        raise ValueError(f"{self.noun} {pole} does not exist: there are {len(self.poles)}")
-
-    @property
-    def noun(self):
-        return "cone" if self._are_cones else "pole"
+        raise ValueError(f"point {pole} does not exist: there are {len(self.poles)}")
 
     def may_go_to(self, pole, vertex):
         """Whether the vertex is on the pole's part, and where poles are allowed; that of a cone is inside, and has no
         other one."""
         is_there = vertex in self._parts[self.place(pole)[0]]
-        if self._are_cones and (vertex in self._boundary or vertex in np.delete(self.poles, pole)):
+        if self.are_cones and (vertex in self._boundary or vertex in np.delete(self.poles, pole)):
             return False
         return bool(is_there and (self.allowed is None or self.allowed[vertex]))
 
@@ -113,7 +109,7 @@ class Session:
 
     def _moved(self, moves):
         """The fields of `TileOptions` with these moves."""
-        if not self._are_cones:
+        if not self.are_cones:
             return {"moved": self._earlier_and(moves), "points": ()}
         places = np.concatenate([part.vertices(own) for part, own in zip(self._tiled(self._first), self._own)])
         places[list(moves)] = list(moves.values())
@@ -132,10 +128,10 @@ class Session:
         """Makes the tiling of these moves at once. @throws ValueError for a vertex where the pole cannot go"""
         for pole, vertex in moves.items():
             if not self.may_go_to(pole, vertex):
-                why = "on another part or not allowed" if not self._are_cones else "no place of its own inside its part"
-                raise ValueError(f"{self.noun} {pole} cannot move to vertex {vertex}, which is {why}")
-        if self._are_cones and len(set(moves.values())) < len(moves):
-            raise ValueError("two cones cannot move to one vertex")
+                why = "on another part or not allowed" if not self.are_cones else "no place of its own inside its part"
+                raise ValueError(f"point {pole} cannot move to vertex {vertex}, which is {why}")
+        if self.are_cones and len(set(moves.values())) < len(moves):
+            raise ValueError("two points cannot move to one vertex")
         job = self.job(moves)
         job.run()
         return self.taken(job)
@@ -177,7 +173,7 @@ class Session:
         """The `points.Points` of the map as it is now; those on maps with other turns stay."""
         asked = self.mapped.options.tiling
         earlier = self._earlier or points.Points(len(self.target.find().data.vertices), self._count)
-        if self._are_cones:
+        if self.are_cones:
             return replace(earlier, cones=asked.cones)
         base = asked.poles if isinstance(asked.poles, tuple) else ()
         moved = {*base, *(vertex for _, vertex in asked.moved)}

@@ -138,7 +138,7 @@ class HOLOMORPH_OT_follow(Explained, bpy.types.Operator):
         if not follows(obj):
             self.cancel(context)
             return {"CANCELLED", "PASS_THROUGH"}
-        if event.type == "ESC" and event.value == "PRESS":
+        if self._is_stopped() or (event.type == "ESC" and event.value == "PRESS"):
             self.cancel(context)
             put_back(obj)
             return {"CANCELLED"}
@@ -173,6 +173,9 @@ class HOLOMORPH_OT_follow(Explained, bpy.types.Operator):
             _end(obj, context, making.write(context, time_has_passed=True))
             return {"FINISHED"}
         return {"PASS_THROUGH"}
+
+    def _is_stopped(self):
+        return self._making is not None and self._making.job.watch.is_cancelled
 
     def _stop(self):
         """Whatever is made is not waited for."""

@@ -9,6 +9,7 @@ import bpy
 
 from .. import native, preferences
 
+TAB = "Holomorph"  # of the sidebars
 CONVERTIBLE = {"FONT", "CURVE", "SURFACE", "META"}
 CONVERT = "Convert this to a mesh first: Object > Convert > Mesh"
 INSTANCES = "Turn these into meshes first: Object > Apply > Make Instances Real"
@@ -79,6 +80,17 @@ def redraw_sidebars(context):
                     region.tag_redraw()
 
 
+def _is_in_our_tab(context, event):
+    """Whether the pointer is in a sidebar that shows our tab."""
+    from .. import compatibility
+
+    for region in (region for area in context.window.screen.areas for region in area.regions):
+        x, y = event.mouse_x - region.x, event.mouse_y - region.y
+        if 0 <= x < region.width and 0 <= y < region.height and compatibility.shows_tab(region, TAB):
+            return True
+    return False
+
+
 def _guarded(method):
     """The method, with as many arguments, for Blender counts them; after an error it refuses in one sentence."""
 
@@ -145,6 +157,7 @@ class AtOnce(OnMeshes):
 MODAL_FACES = 20_000  # below, a solve is too short to be worth a progress display
 MODAL_TILED_FACES = 2_000  # likewise a tiling
 TIMER_SECONDS = 0.05
+OF_A_CLICK = {"MOUSEMOVE", "LEFTMOUSE"}
 
 
 class WorkOperator(Explained):
@@ -203,7 +216,8 @@ class WorkOperator(Explained):
                     raise ValueError(f"{known.name} is {number}; a finite number is needed")
 
     def modal(self, context, event):
-        """Consumes every event but ESC until the worker is done, so the meshes stay as they were read."""
+        """Until the worker is done, the meshes stay as they were read: of all events Blender gets clicks in our tab
+        alone, where nothing but a button that stops the work can be pressed."""
         try:
             return self._after(context, event)
         except BaseException:
@@ -211,12 +225,13 @@ class WorkOperator(Explained):
             raise
 
     def _after(self, context, event):
-        if event.type == "ESC":
+        if event.type == "ESC" or self._work.watch.is_cancelled:
             self.cancel(context)
             self.report({"INFO"}, "Cancelled: nothing was changed")
             return {"CANCELLED"}
         if event.type != "TIMER":
-            return {"RUNNING_MODAL"}
+            is_passed = event.type in OF_A_CLICK and _is_in_our_tab(context, event)
+            return {"PASS_THROUGH"} if is_passed else {"RUNNING_MODAL"}
         if self._work.is_running():
             self._show_progress(context)
             return {"RUNNING_MODAL"}
@@ -260,7 +275,7 @@ class WorkOperator(Explained):
 
     def _show_progress(self, context):
         percent = round(100 * self._work.watch.fraction)
-        context.workspace.status_text_set(f"Holomorph: {percent} % {self._work.watch.stage}   (ESC cancels)")
+        context.workspace.status_text_set(f"Holomorph: {percent} %   (ESC stops)")
         context.window_manager.progress_update(self._work.watch.fraction)
         redraw_sidebars(context)
 

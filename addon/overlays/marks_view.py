@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Poles, branch points and cones of tilings as dots in the 3D view. Called from draw handlers only.
+"""Points of tilings as dots in the 3D view: poles or cones, and branch points, which follow. Called from draw handlers
+only.
 
 A dot is a disc in space that faces the viewer and has the same size on the screen at every distance.
 """
@@ -13,7 +14,7 @@ from ..scene import mesh_io
 from . import on_screen
 
 POLE, ZERO, CONE = range(3)  # kinds of dots
-NAMES = "pole", "branch point", "cone"
+NAMES = ("point", "points"), ("that follows", "that follow"), ("point", "points")  # one, several
 COLOURS = np.array([(1.0, 0.55, 0.10), (0.95, 0.95, 0.95), (0.45, 0.85, 1.0)])  # sRGB
 SIZES = np.array([1.0, 1.0, 0.6])  # there are more cones, and less is to be seen at each
 LIT = (1.0, 0.85, 0.25)
@@ -60,19 +61,19 @@ def draw_legend(context, objects, dragged):
     _, kinds, _ = _all_points(objects, dragged)
     unit = context.preferences.system.ui_scale
     x, y = context.region.width / 2 + LEGEND[0] * unit, LEGEND[1] * unit
-    for count, noun, colour in legend(kinds):
+    for words, colour in legend(kinds):
         middle, flat = np.array([[x, y, 0.0]]), np.eye(3)[:2]
         for radius, fill in ((RADIUS + RIM_WIDTH, RIM), (RADIUS, colour)):
             _draw_discs(discs(middle, np.array([radius * unit]), flat), fill, 1.0, "NONE")
-        words = f"{count} {noun}{'' if count == 1 else 's'}"
         on_screen.text_from(words, x + GAP * unit, y - on_screen.TEXT_SIZE * unit / 3, unit)
         x += on_screen.text_width(words, unit) + 3 * GAP * unit
 
 
 def legend(kinds):
-    """(number, name, colour) of each kind of dot that there is."""
+    """(how many, in words, colour) of each kind of dot that there is."""
     counts = np.bincount(kinds, minlength=len(NAMES)).tolist()
-    return [each for each in zip(counts, NAMES, map(tuple, COLOURS)) if each[0]]
+    words = (f"{count} {names[count != 1]}" for count, names in zip(counts, NAMES))
+    return [each for count, *each in zip(counts, words, map(tuple, COLOURS)) if count]
 
 
 def _all_points(objects, dragged):
@@ -88,7 +89,7 @@ def _points(obj, dragged):
     (vertices, is_pole), cones = stored.marks(obj[report.PROPERTY]), stored.cones(obj[report.PROPERTY])
     kinds = np.where(is_pole, POLE, ZERO)
     if dragged is not None:  # these first, as they are numbered
-        vertices, kind = np.concatenate([dragged.poles, dragged.zeros]), NAMES.index(dragged.noun)
+        vertices, kind = np.concatenate([dragged.poles, dragged.zeros]), CONE if dragged.are_cones else POLE
         kinds = np.where(np.arange(len(vertices)) < len(dragged.poles), kind, ZERO)
         cones = cones[:0] if kind == CONE else cones
     vertices, kinds = np.concatenate([vertices, cones]), np.append(kinds, np.full(len(cones), CONE))

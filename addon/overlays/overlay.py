@@ -29,7 +29,7 @@ class Dragged:
     poles: object  # vertices; or the cones
     zeros: object  # vertices
     hovered: int | None  # among the poles
-    noun: str = "pole"
+    are_cones: bool = False
 
 
 dragged = {}  # `Dragged` by the object's name, while it lasts

@@ -75,9 +75,9 @@ def test_no_move_is_what_there_is():
 
 
 REFUSED = {
-    "0:{taken}": "cone 0 cannot move to vertex {taken}, which is no place of its own inside its part",
-    "0:{boundary}": "cone 0 cannot move to vertex {boundary}, which is no place of its own inside its part",
-    "90:3": "cone 90 does not exist: there are",
+    "0:{taken}": "point 0 cannot move to vertex {taken}, which is no place of its own inside its part",
+    "0:{boundary}": "point 0 cannot move to vertex {boundary}, which is no place of its own inside its part",
+    "90:3": "point 90 does not exist: there are",
     "0-3": "pairs such as",
 }
 
@@ -109,7 +109,7 @@ def test_two_cones_cannot_go_to_one_place():
     tile()
     before = everything(obj)
     place = neighbour(obj, next(iter(cones(obj))))
-    with pytest.raises(RuntimeError, match="two cones cannot move to one vertex"):
+    with pytest.raises(RuntimeError, match="two points cannot move to one vertex"):
         move(f"0:{place} 1:{place}")
     assert everything(obj) == before
 
@@ -147,7 +147,7 @@ def test_a_session_shows_and_gives_back():
     tile()
     before = everything(obj)
     session = drag_session.Session(obj)
-    assert session.noun == "cone" and session.poles.tolist() == list(cones(obj)) and not len(session.zeros)
+    assert session.are_cones and session.poles.tolist() == list(cones(obj)) and not len(session.zeros)
     place = neighbour(obj, int(session.poles[2]))
     job = session.job({2: place})
     job.run()
@@ -186,7 +186,7 @@ def test_dots_follow_the_pointer():
     select(obj)
     places = np.array(list(cones(obj)))
     places[0] = neighbour(obj, int(places[0]))
-    dragged = overlay.Dragged(places, np.empty(0, np.int64), 0, "cone")
+    dragged = overlay.Dragged(places, np.empty(0, np.int64), 0, are_cones=True)
     points, kinds, hovered = marks._points(obj, dragged)
     assert len(points) == len(places) and (kinds == marks.CONE).all() and hovered.tolist() == [True] + [False] * 7
     assert np.allclose(points[0], obj.data.vertices[int(places[0])].co)

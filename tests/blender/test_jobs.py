@@ -83,6 +83,23 @@ def test_cancel_leaves_the_rest_undone():
     assert module("solving.jobs").KEPT.get(task.key) is None
 
 
+def test_the_cross_cancels_what_is_running(monkeypatch):
+    """And nothing else can be pressed in our tab, but where a map follows its dials."""
+    map_panel, mixins, follow = map(module, ("interface.map_panel", "operators.mixins", "operators.follow"))
+    work = module("solving.jobs").Job([])
+    assert not bpy.ops.uv.holomorphic_stop.poll() and not map_panel.is_blocked()
+    monkeypatch.setattr(mixins.WorkOperator, "running", work)
+    assert map_panel.is_blocked()
+    assert bpy.ops.uv.holomorphic_stop() == {"FINISHED"} and work.watch.is_cancelled
+    monkeypatch.setattr(follow.HOLOMORPH_OT_follow, "active", "Torus")
+    assert not map_panel.is_blocked()
+
+
+@pytest.mark.parametrize(("seconds", "words"), [(5.4, "5 s"), (34, "30 s"), (75, "1 min"), (4900, "80 min")])
+def test_expected_times_are_round(seconds, words):
+    assert module("interface.map_panel").in_words(seconds) == words
+
+
 def test_progress_grows_from_0_to_1():
     seen = []
     tasks = [task_of(torus("First", around=100)), task_of(torus("Second", around=120))]

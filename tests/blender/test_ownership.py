@@ -150,7 +150,7 @@ def test_poles_are_dragged_on_the_object_whose_scale_counts():
     first, second = stretched_pair()
     bpy.ops.uv.holomorphic_tile(tiles=20, poles="COUNT", pole_count=2)
     select(second)
-    with pytest.raises(RuntimeError, match="drag the poles on First"):
+    with pytest.raises(RuntimeError, match="drag the points on First"):
         bpy.ops.uv.holomorphic_drag_poles(moves="0:7")
     select(first)
     assert bpy.ops.uv.holomorphic_drag_poles(moves="0:7") == {"FINISHED"}

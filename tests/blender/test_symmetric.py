@@ -4,13 +4,11 @@ import bpy
 import numpy as np
 import pytest
 from drawn_images import periodic_noise
-from drawn_panel import drawn
 from loaded_addon import module
 from scenes import mesh_object, run, sphere_arrays, stored_report, uv
 
-averages, user_texture, image_io, symmetric = (
-    module(name) for name in ("materials.averages", "materials.user_texture", "scene.image_io", "results.symmetric")
-)
+averages, user_texture, image_io = map(module, ("materials.averages", "materials.user_texture", "scene.image_io"))
+symmetric, map_panel = map(module, ("results.symmetric", "interface.map_panel"))
 SIZE = 64
 
 
@@ -231,12 +229,9 @@ def test_the_panel_offers_it():
     obj = ball()
     noise()
     tile()
-    told = "The texture shows where it turns"
-    layout = drawn(obj, width=2000)
-    assert told in layout.texts and "uv.holomorphic_make_symmetric" in layout.buttons
+    assert map_panel.shows_turns(obj["holomorph_report"])
     make()
-    layout = drawn(obj, width=2000)
-    assert told not in layout.texts and "uv.holomorphic_make_symmetric" not in layout.buttons
+    assert not map_panel.shows_turns(obj["holomorph_report"])
 
 
 def test_a_picture_that_became_wide_is_shown_as_it_is():

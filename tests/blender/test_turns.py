@@ -340,7 +340,7 @@ def test_cones_are_dots_of_their_own():
     tile(turns="QUARTER")
     points, kinds, hovered = marks._points(obj, None)
     assert len(points) == len(tilings(obj)[0]["cones"]) and (kinds == marks.CONE).all() and not hovered.any()
-    assert [(count, name) for count, name, _ in marks.legend(kinds)] == [(len(points), "cone")]
+    assert [words for words, _ in marks.legend(kinds)] == [f"{len(points)} points"]
     assert np.allclose(points, np.array([obj.data.vertices[v].co for v in tilings(obj)[0]["cones"]]))
 
 
