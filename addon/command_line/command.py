@@ -4,6 +4,7 @@
 import signal
 import sys
 import time
+from itertools import chain
 from pathlib import Path
 
 import bpy
@@ -102,15 +103,15 @@ def _check_places(options):
 
 def _make_maps(options):
     """The `report.Outcome`. @throws UsageError"""
-    found = sources.collect(options)
     try:
-        run = Run(options, found, _own_texture(options))
+        runs = [Run(own, found, _own_texture(own)) for own, found in sources.collect(options)]
     except ValueError as error:
         raise UsageError(str(error)) from error
-    job = run.job()
-    job.run()
-    with transaction.one_step(bpy.context, run.objects) as step:
-        return run.write(step, job)
+    jobs = [run.job() for run in runs]
+    for job in jobs:
+        job.run()
+    with transaction.one_step(bpy.context, list(chain(*(run.objects for run in runs)))) as step:
+        return report.together([run.write(step, job) for run, job in zip(runs, jobs)])
 
 
 def _own_texture(options):
@@ -120,7 +121,7 @@ def _own_texture(options):
         and options.source not in bpy.data.images
         and Path(options.source).is_file()
     ):
-        options.source = bpy.data.images.load(str(Path(options.source).resolve())).name
+        options.source = bpy.data.images.load(str(Path(options.source).resolve()), check_existing=True).name
     return user_texture.chosen(options)
 
 

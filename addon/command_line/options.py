@@ -14,11 +14,13 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from .. import addresses
 from ..baking.channels import CHANNELS, EACH, ONE, UDIM, USUAL_CHANNELS, BakeOptions
 from ..operators.properties import FORMS, MOST_POLES, Dials, OfOneRun
+from ..scene import stored_dials
 from . import exchange
 
 # Suffixes of the files that are written.
 SUFFIXES = {"output": (".blend", *exchange.SUFFIXES), "render": (".png",), "report": (".json",)}
 PROGRAM = "blender -b --disable-autoexec [file.blend] --python-exit-code 1 --python headless.py --"
+DIALS = {"seamless": ("main",), "poles": ("poles", "pole_count")}  # of options that are not named after theirs
 KINDS = {FloatProperty: float, IntProperty: int, StringProperty: str}
 
 
@@ -71,6 +73,9 @@ def parse(arguments, program=PROGRAM):
     _add_tilings(parser)
     _add_bake(parser)
     options = parser.parse_args(arguments)
+    given = parser.parse_args(arguments, argparse.Namespace(**dict.fromkeys(vars(options))))  # None, and no defaults
+    names = [name for name, value in vars(given).items() if value is not None]
+    options.given = {dial for name in names for dial in DIALS.get(name, (name,))}
     options.warnings = []  # sentences about what was read all the same
     _check_suffixes(options)
     _check_folders(options.output, options.render, options.report, options.bake)
@@ -119,6 +124,11 @@ def _take_over(options):
         options.poles, options.pole_count = "COUNT", int(options.poles)
     if options.seamless:
         options.main = "SEAMLESS"
+
+
+def for_object(options, stored):
+    """The options with the dials that an object stores, beside those that are given."""
+    return argparse.Namespace(**vars(options) | stored_dials.beside(options.given, stored))
 
 
 def _add_choices(parser):

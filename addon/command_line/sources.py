@@ -9,9 +9,10 @@ import bpy
 from .. import compatibility
 from ..native import holomorph, module
 from ..operators import request
-from ..scene import gathering, mesh_io, targets
+from ..scene import gathering, mesh_io, stored_dials, targets
 from ..solving import jobs
 from . import exchange
+from . import options as options_of
 from .options import UsageError
 
 intake = module("mesh.intake")
@@ -20,20 +21,35 @@ Z_UP_FROM_Y_UP = math.pi / 2  # radians about the x axis, as Blender's own impor
 
 
 def collect(options):
-    """The `targets.Target`s. @throws UsageError"""
+    """[(options, `targets.Target`s)]: objects that store the same dials have the same. @throws UsageError"""
     if options.mesh is not None and not options.mesh.is_file():
         raise UsageError(f"{options.mesh}: no such file")
     try:
         asked, file = _request(options), _intake(options)
         if file is not None and not file.has_more:
-            return [_of_file(target, file) for target in targets.collect([_object_of(options, file)], asked)]
+            found = targets.collect([_object_of(options, file)], asked)
+            return [(options, [_of_file(target, file) for target in found])]
         objects = _named(options, _mesh_objects(options))
         if asked.vertices is not None and len(objects) > 1:
             raise UsageError("vertices are chosen on one object: name it with --object")
         bpy.context.view_layer.update()  # the objects' matrices
-        return targets.collect(objects, asked)
+        return [(own, targets.collect(some, _request(own))) for own, some in _by_dials(options, objects)]
     except (ValueError, holomorph.Error, exchange.ExchangeError) as error:
         raise UsageError(str(error)) from error
+
+
+def _by_dials(options, objects):
+    """[(options, objects)] by the dials that they store; a mesh has those of its first object."""
+    dials, groups = {}, []
+    for obj in objects:
+        stored = dials.setdefault(obj.data, stored_dials.chosen(obj))
+        own = options_of.for_object(options, stored)
+        alike = next((some for other, some in groups if other == own), None)
+        if alike is None:
+            groups.append((own, [obj]))
+        else:
+            alike.append(obj)
+    return groups
 
 
 def _request(options):

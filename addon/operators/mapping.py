@@ -11,32 +11,27 @@ from .properties import HARD_EDGE, Dials, OfOneRun
 
 
 class _MapsOperator(Dials, OfOneRun, OnMeshes, WorkOperator):
-    """What the operators that make maps share. A button starts with the dials of the active object, a script says what
-    is not automatic; a run writes them back to all that it maps."""
+    """What the operators that make maps share. They start with the dials of the active object, but for those that are
+    given; a run writes them back to all that it maps."""
 
     asked = {}
-
-    def invoke(self, context, event):
-        from ..scene import gathering
-
-        self._start_with(stored_dials.of(gathering.mesh_objects(context)[0]) | self.asked)
-        return super().invoke(context, event)
 
     def prepare(self, context):
         from ..scene import gathering, targets
         from . import request
 
-        self._start_with(self.asked)
         objects = gathering.mesh_objects(context)
+        self._start_with(stored_dials.of(objects[0]) | self.asked)
         self._own, self._why_not_own = request.own_texture(self)
         found = targets.collect(objects, request.choices(self))
         self._run = request.Run(self, found, self._own, self.is_trial)
         self.is_trial = False  # what the redo panel asks for later is written in any case
 
     def _start_with(self, values):
-        """Takes over these dials, but for those that the caller has set. What is set now, the redo panel keeps."""
-        for name, value in values.items():
-            if name in Dials.__annotations__ and not self.properties.is_property_set(name):
+        """Takes over these dials beside those that the caller has set. What is set now, the redo panel keeps."""
+        given = [name for name in Dials.__annotations__ if self.properties.is_property_set(name)]
+        for name, value in stored_dials.beside(given, values).items():
+            if name in Dials.__annotations__:
                 setattr(self, name, value)
 
     def make_work(self, progress):

@@ -181,6 +181,18 @@ class Outcome:
             self.problems.append(f"{obj.name}: {count} faces are too small in the map for Blender's single precision")
 
 
+def together(outcomes):
+    """One `Outcome` of all."""
+    whole = Outcome()
+    for one in outcomes:
+        whole.done += one.done
+        whole.problems += one.problems
+        whole.notes += one.notes
+        whole.entries += one.entries
+        whole.forms = max(whole.forms, one.forms)
+    return whole
+
+
 def _problems(obj, made):
     """What was not done, or not as it was chosen; the parts that are not surfaces. One sentence for each reason."""
     told = {}

@@ -7,6 +7,7 @@ import bpy
 
 NAME = "holomorph_map"  # of the group, a property of objects
 OF_BLENDER = {"rna_type", "name"}  # properties of every group
+RULED_OUT = {"tiles": "size", "size": "tiles"}  # the one that is given counts alone
 MOVED = "moved"  # the name of the dial that is each object's own: points that were dragged
 
 _quiet = []  # not empty while dials are written and nothing is to follow
@@ -46,6 +47,12 @@ def chosen(obj):
         return {}
     group = getattr(obj, NAME)
     return {name: value for name, value in read(group).items() if group.is_property_set(name)}
+
+
+def beside(given, values):
+    """Those of these dials that are neither given nor ruled out by one that is."""
+    ruled_out = {*given, *(RULED_OUT[name] for name in given if name in RULED_OUT)}
+    return {name: value for name, value in values.items() if name not in ruled_out}
 
 
 def choose(obj, values):

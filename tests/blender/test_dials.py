@@ -66,6 +66,33 @@ def test_the_command_stores_what_it_is_asked_for(tmp_path):
     assert np.array_equal(uv(obj), made)
 
 
+def test_a_script_starts_with_the_dials_of_the_object():
+    """Beside those that it gives; a number of tiles takes the place of their size."""
+    obj = torus()
+    obj.holomorph_map.evenness, obj.holomorph_map.texture, obj.holomorph_map.size = 0.75, "BRICKS", 0.25
+    bpy.ops.uv.holomorphic_tile(tiles=30, texture="SCALES")
+    made = stored_report(obj)["dials"]["stored"]
+    assert [made[name] for name in ("evenness", "texture", "size", "tiles")] == [0.75, "SCALES", 0, 30]
+    bpy.ops.uv.holomorphic_maps(size=0.5)
+    made = stored_report(obj)["dials"]["stored"]
+    assert [made[name] for name in ("main", "texture", "size", "tiles")] == ["SEAMLESS", "SCALES", 0.5, 0]
+
+
+def test_the_command_starts_with_the_dials_of_each_object(tmp_path):
+    """Beside its options."""
+    first, second, alike = (torus(name) for name in "ABC")
+    first.holomorph_map.tiles, first.holomorph_map.evenness = 30, 0.75
+    second.holomorph_map.texture = alike.holomorph_map.texture = "BRICKS"
+    source, report = tmp_path / "source.blend", tmp_path / "report.json"
+    bpy.ops.wm.save_as_mainfile(filepath=str(source))
+    run = headless("--evenness", "0.25", "--report", report, blend=source)
+    assert run.returncode == 0, run.stderr
+    made = {one["object"]: one["dials"] for one in json.loads(report.read_text())["objects"]}
+    asked = {name: [made[name]["stored"][dial] for dial in ("tiles", "evenness", "texture")] for name in "ABC"}
+    assert asked == {"A": [30, 0.25, "CHECKER"], "B": [0, 0.25, "BRICKS"], "C": [0, 0.25, "BRICKS"]}
+    assert [made[name]["together"] for name in "ABC"] == [1, 2, 2]
+
+
 def test_an_object_without_a_map_only_keeps_its_dials():
     obj = torus()
     obj.holomorph_map.tiles = 30
@@ -84,6 +111,15 @@ def test_the_numbers_in_effect_are_shown_and_set():
     dials.by_size = False
     dials.tiles_shown = 2 * found.tiles
     assert dials.tiles == dials.tiles_shown == 2 * found.tiles
+
+
+def test_before_the_first_map_there_is_no_number_of_tiles_but_a_button():
+    dials = torus().holomorph_map
+    assert not dials.by_count
+    dials.by_count = True
+    assert dials.by_count and dials.tiles == dials.tiles_shown == 100
+    dials.by_count = False
+    assert not dials.by_count and dials.tiles == 0
 
 
 def test_undo_takes_dial_and_map_back_together():

@@ -77,7 +77,7 @@ def test_other_tiles_rotations_and_lattices_place_no_poles_again(stages):
     torus()
     tile()
     assert {"placing", "rounding"} <= set(stages)
-    for options in ({"tiles": 150}, {"rotation": 0.3}, {"lattice": "hex"}, {"quarters": 1}):
+    for options in ({"lattice": "hex"}, {"lattice": "square"}, {"tiles": 150}, {"rotation": 0.3}, {"quarters": 1}):
         stages.clear()
         assert tile(**options) == {"FINISHED"}
         assert "placing" not in stages
@@ -201,7 +201,7 @@ def test_the_operator_says_what_it_needs():
     tile(poles="COUNT", pole_count=0)
     with pytest.raises(RuntimeError, match="Select an object whose map has points"):
         move("")
-    tile()
+    tile(poles="AUTOMATIC")
     for vertex in obj.data.vertices:  # so that poles are placed elsewhere
         vertex.co.x *= 4.0 if vertex.co.x > 0 else 1.0
     with pytest.raises(RuntimeError, match="has changed since it was tiled"):

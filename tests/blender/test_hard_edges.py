@@ -63,12 +63,13 @@ def test_edges_that_are_marked_sharp_are_hard_whatever_their_angle():
     assert len(main_maps(obj)) == 4
 
 
-def test_the_maps_operator_does_not_remember_islands():
+def test_the_maps_operator_goes_on_with_islands_until_it_is_told_otherwise():
     obj = cone()
     assert bpy.ops.uv.holomorphic_islands() == {"FINISHED"}
     assert stored_report(obj)["dials"]["main"] == "ISLANDS"
-    assert bpy.ops.uv.holomorphic_maps() == {"FINISHED"}
-    assert stored_report(obj)["dials"]["main"] == "AUTOMATIC"
+    for asked, main in (({}, "ISLANDS"), ({"main": "AUTOMATIC"}, "AUTOMATIC"), ({}, "AUTOMATIC")):
+        assert bpy.ops.uv.holomorphic_maps(**asked) == {"FINISHED"}
+        assert stored_report(obj)["dials"]["main"] == main
 
 
 def test_mark_seams_marks_where_islands_were_cut():

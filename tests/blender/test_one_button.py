@@ -30,7 +30,9 @@ from scenes import (
 
 
 def press(**options):
-    """The button as it comes."""
+    """The button as it comes: no other dial was ever turned."""
+    for obj in bpy.data.objects:
+        obj.property_unset("holomorph_map")
     return bpy.ops.uv.holomorphic_maps(**options)
 
 

@@ -109,7 +109,7 @@ def test_more_forms_than_uv_maps_become_corner_attributes():
     assert [m["stored_as"] for m in written] == ["uv_map"] * 8 + ["attribute"] * 6
     for m in written:
         assert fills_the_square(uv(obj, m["name"]))
-    run()
+    run(forms=8)
     assert len(stored_report(obj)["maps"]) == 9
     assert "Holomorphic 13" not in obj.data.attributes
     assert "Holomorphic 8" in obj.data.attributes or "Holomorphic 8" in obj.data.uv_layers

@@ -6,11 +6,11 @@ import full_scene
 import pytest
 from exchange_formats import SCENES, may_write_gltf
 from headless_runs import headless
-from holomorph.files.formats import IMPORTERS
 from loaded_addon import module
 from scenes import grid_arrays, mesh_object
 
 compatibility, exchange = module("compatibility"), module("command_line.exchange")
+IMPORTERS = module("native").module("files.formats").IMPORTERS
 BEST = {
     ".glb": {
         "export_cameras": True,

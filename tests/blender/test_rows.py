@@ -146,7 +146,8 @@ def test_rows_that_cannot_lie_so_are_told():
     ball()
     told = "Ball: rows do not lie at its edges: there are none, or tiles are too large for them"
     assert told in notes_of(lambda: tile(rows="END_AT_EDGES"))
-    assert "rows" not in notes_of(tile) and "rows" not in notes_of(lambda: tile(turns="NONE", rows="END_AT_EDGES"))
+    assert "rows" not in notes_of(lambda: tile(turns="NONE"))
+    assert "rows" not in notes_of(lambda: tile(turns="FROM_TEXTURE", rows="AUTOMATIC"))
 
 
 def test_the_dial_is_there_where_it_means_something():
