@@ -44,9 +44,9 @@ class CutMesh:
         return CutMesh(self.vertices, *turned)
 
 
-def found(tiled, per_tile, shifted, is_simple):
+def found(tiled, progress, per_tile, shifted, is_simple):
     """The `holomorph.Cells` of a `holomorph.TiledSurface`; (columns, rows) in each tile."""
-    cells = tiled.cells(per_tile, shifted)
+    cells = tiled.cells(per_tile, shifted, progress)
     return cells.simplified() if is_simple else cells
 
 

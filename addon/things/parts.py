@@ -23,7 +23,7 @@ class PartsWork(jobs.Work):
     uv: np.ndarray  # (#C, 2)
     lattice: str
     turns: int
-    find: object  # of a `holomorph.TiledSurface`
+    find: object  # of a `holomorph.TiledSurface`, with its progress function
     progress: object = None
     found: list = field(default_factory=list)
     problem: str = ""
@@ -50,8 +50,8 @@ class PartsWork(jobs.Work):
         if len(refusals) == len(components):
             self.problem = f"{NO_TILING} ({refusals[0]})" if refusals else NO_TILING
 
-    def look(self, tiled, _ask):
-        return self.find(tiled)
+    def look(self, tiled, ask):
+        return self.find(tiled, ask)
 
     def skip(self, part):
         """Handles a `holomorph.Surface` that has no tiling: nothing is found there."""

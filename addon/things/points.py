@@ -66,11 +66,11 @@ def _is_shifted_already(columns, rows, lattice):
     return math.isclose(lattice[0, 1] / rows * columns / lattice[0, 0] % 1, 0.5, abs_tol=1e-6)
 
 
-def found(tiled, arranged):
+def found(tiled, progress, arranged):
     """(attributes of the places on a `holomorph.TiledSurface`, (n,) or (n, 3), by name; its lattice). `arranged` gives
     the `Arrangement` for a lattice."""
     arranged = arranged(tiled.lattice)
-    places = tiled.places((arranged.columns, arranged.rows), arranged.offset, arranged.is_shifted)
+    places = tiled.places((arranged.columns, arranged.rows), arranged.offset, arranged.is_shifted, progress)
     width = tiled.lattice[0, 0] / arranged.columns
     inside = places.uv @ np.linalg.inv(tiled.lattice).T
     row = np.rint(inside[:, 1] * arranged.rows - arranged.offset[1]).astype(np.int64)

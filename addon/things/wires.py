@@ -21,11 +21,11 @@ DIALS = {
 }
 
 
-def found(tiled, directions, per_tile):
+def found(tiled, progress, directions, per_tile):
     """The attributes of the points, by name, with the "edges" that join them, the "side" of a tile, and the "count" of
     lines."""
     directions = directions[:1] if tiled.turns > 2 else directions  # which are all, once turned
-    lines = [tiled.lines(direction, per_tile) for direction in directions]
+    lines = [tiled.lines(direction, per_tile, progress) for direction in directions]
     counts = np.cumsum([0, *(len(one.triangles) for one in lines)])
     edges = [_edges(one) + begin for one, begin in zip(lines, counts)]
     values = parts.joined([parts.surface_values(one) for one in lines])

@@ -13,6 +13,29 @@ def fan(n):
     return np.vstack([[0, 0, 0.3], ring(n)]), [[0, 1 + i, 1 + (i + 1) % n] for i in range(n)]
 
 
+def bipyramid(n):
+    """Two fans on one ring: two vertices have n / 2 neighbours each."""
+    m = n // 2
+    upper = [[0, 2 + i, 2 + (i + 1) % m] for i in range(m)]
+    return np.vstack([[0, 0, 1], [0, 0, -1], ring(m)]), upper + [[1, b, a] for _, a, b in upper]
+
+
+def polygon(n):
+    """One polygon with n sides."""
+    return ring(n), [list(range(n))]
+
+
+def boxes(n):
+    """Some n / 6 boxes of different sizes, apart from each other."""
+    count = max(n // 6, 1)
+    corner = np.stack(np.meshgrid([0, 1], [0, 1], [0, 1], indexing="ij"), axis=-1).reshape(-1, 3)
+    sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    sizes = np.random.default_rng(0).uniform(0.3, 0.9, (count, 1, 3))
+    places = np.stack(np.unravel_index(np.arange(count), [int(np.ceil(count ** (1 / 3)))] * 3), axis=-1)
+    faces = np.array(sides) + 8 * np.arange(count)[:, None, None]
+    return (corner * sizes + places[:, None]).reshape(-1, 3), faces.reshape(-1, 4).tolist()
+
+
 def spiral(n):
     """Around one vertex twice: it lies over itself when it is flat."""
     angle = 4 * np.pi * np.arange(n + 1) / n
@@ -69,4 +92,6 @@ def latin(n):
     return np.random.default_rng(0).random((3 * m, 3)), faces.tolist()
 
 
-SHAPES = {shape.__name__: shape for shape in (fan, spiral, stairs, soup, star, ribbon, plate)}
+SHAPES = {
+    shape.__name__: shape for shape in (fan, bipyramid, polygon, boxes, spiral, stairs, soup, star, ribbon, plate)
+}

@@ -95,6 +95,7 @@ class TiledSurface(Value):
         per_tile: tuple[int, int] = (1, 1),
         offset: tuple[float, float] = (0.5, 0.5),
         shifted_rows: bool = False,
+        progress: Progress | None = None,
     ) -> Places:
         """The points of the surface at regular places in the tiles, each once: see `Places`.
 
@@ -102,8 +103,10 @@ class TiledSurface(Value):
         offset : of a place in its column and row, from 0 to 1: (0.5, 0.5) for the middles of the tiles, (0, 0) for
             their corners, (0.5, 0) and (0, 0.5) for the middles of their sides
         shifted_rows : every other row is moved by half a column, as bricks are; their number in a tile must be even
+        progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
-        Raises ValueError for others. Cost: linear in triangles and places.
+        Raises ValueError for others; SolverError for more than memory is meant for, a gigabyte or 100 kB a vertex;
+        Cancelled. Cost: linear in triangles and places.
         """
         columns, rows = _grid(per_tile, shifted_rows)
         offset = arrays.numbers(_pair(offset, "offset"), "offset")
@@ -112,7 +115,7 @@ class TiledSurface(Value):
         check_grid(self.turns, (columns, rows), offset, shifted_rows)
         shift = rows // 2 if shifted_rows else 0
         coordinates = self._coordinates(((columns, -shift), (0, rows)), offset / (columns, rows))
-        found = _native.places(self._native, coordinates, threads=self._threads)
+        found = _native.places(self._native, coordinates, threads=self._threads, progress=progress)
         triangles, barycentric, numbers = found.triangles, found.barycentric, found.numbers
         if self._opened:
             kept = self._opened.first_ones(triangles, barycentric)
@@ -130,7 +133,7 @@ class TiledSurface(Value):
             _numbers=numbers,
         )
 
-    def lines(self, direction: str | Sequence[int] = "u", per_tile: int = 1) -> Lines:
+    def lines(self, direction: str | Sequence[int] = "u", per_tile: int = 1, progress: Progress | None = None) -> Lines:
         """The lines between the tiles in one direction, as curves on the surface: see `Lines`.
 
         direction : "u" for lines along the first vector of the lattice, "v" along the second, or two whole numbers
@@ -139,35 +142,41 @@ class TiledSurface(Value):
 
         Where the tiling turns by quarters these are also the lines across, and by sixths those in three directions.
 
-        Raises ValueError for others; SolverError for too many points. Cost: linear in triangles and points.
+        progress : as of `places`, in each of these directions
+
+        Raises ValueError for others; SolverError for too many points; Cancelled. Cost: linear in triangles and points.
         """
         a, b = _direction(direction)
         count = _count(per_tile, "per_tile")
-        found = [self._lines(count * b, -count * a) for a, b in directions((a, b), self.turns)]
+        found = [self._lines((count * b, -count * a), progress) for a, b in directions((a, b), self.turns)]
         made = joined(self._opened, found) if self._opened else found[0]
         return Lines(*map(arrays.frozen, made), tiled=self)
 
-    def _lines(self, *step):
-        found = _native.lines(self._native, self._coordinates((step, (0, 0))), threads=self._threads)
+    def _lines(self, step, progress):
+        coordinates = self._coordinates((step, (0, 0)))
+        found = _native.lines(self._native, coordinates, threads=self._threads, progress=progress)
         return Curves(found.offsets, found.is_closed.astype(bool), found.triangles, found.barycentric)
 
-    def cells(self, per_tile: tuple[int, int] = (1, 1), shifted_rows: bool = False) -> Cells:
+    def cells(
+        self, per_tile: tuple[int, int] = (1, 1), shifted_rows: bool = False, progress: Progress | None = None
+    ) -> Cells:
         """The surface with one polygon for each tile: see `Cells`.
 
-        per_tile, shifted_rows : as of `places`, which are the middles: with shifted rows cells are bricks
+        per_tile, shifted_rows, progress : as of `places`, which are the middles: with shifted rows cells are bricks
 
         Where the tiling turns by quarters, a tile has as many columns as rows, not shifted; where it turns by halves,
         bricks lie a quarter of their length to the left, as half turns leave them.
 
-        Raises ValueError for others; TopologyError for a tiling that turns by sixths; SolverError for too many. Cost:
-        linear in triangles and their pieces.
+        Raises ValueError for others; TopologyError for a tiling that turns by sixths; SolverError for too many;
+        Cancelled. Cost: linear in triangles and their pieces.
         """
         columns, rows = _grid(per_tile, shifted_rows)
         parts = 2 if shifted_rows else 1  # of the columns: rows of bricks begin with the first or the second
         lies = (-0.5 / parts if shifted_rows and self.turns == 2 else 0.0) / columns, 0.0
         self._check_cells((columns, rows), shifted_rows)
         coordinates = self._coordinates(((parts * columns, 0), (0, rows)), lies, turns=self.turns)
-        found = _native.cells(self.surface._native, coordinates, bricks=shifted_rows, threads=self._threads)
+        options = {"bricks": shifted_rows, "threads": self._threads, "progress": progress}
+        found = _native.cells(self.surface._native, coordinates, **options)
         points, first, is_whole = found.corner_points, found.offsets[:-1], found.is_whole.astype(bool)
         is_line = points == np.rint(points)
         if shifted_rows:

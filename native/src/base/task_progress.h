@@ -18,13 +18,14 @@ class TaskProgress {
   TaskProgress(Execution& execution, double steps, double operations)
       : execution_(execution), steps_(steps), operations_(operations) {}
 
-  ~TaskProgress() { Execution::count(static_cast<double>(done_) * operations_); }
+  ~TaskProgress() { count(); }
 
   /// @param thread that the task runs on, 0 for the calling one. @throws Cancelled
   void operator()(int thread) {
     const auto done = static_cast<double>(done_.fetch_add(1, std::memory_order_relaxed));
     if (is_ended_.load(std::memory_order_acquire)) std::rethrow_exception(end_);
     if (thread != 0) return;
+    count();
     try {
       execution_.report(done / (done + steps_));
     } catch (...) {
@@ -35,8 +36,15 @@ class TaskProgress {
   }
 
  private:
+  // The calls of all threads since the last time. Only the calling thread counts.
+  void count() {
+    const auto done = static_cast<double>(done_.load(std::memory_order_relaxed));
+    Execution::count((done - counted_) * operations_);
+    counted_ = done;
+  }
+
   Execution& execution_;
-  double steps_, operations_;
+  double steps_, operations_, counted_ = 0;
   std::atomic<std::size_t> done_{0};
   std::atomic<bool> is_ended_{false};
   std::exception_ptr end_;  // written before is_ended_

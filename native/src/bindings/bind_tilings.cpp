@@ -149,24 +149,32 @@ TileCoordinates tile_coordinates(const Surface& surface, const Contiguous<double
   return tiles::tile_coordinates(surface, corners, {inverse_lattice, origin, steps, turns}, execution);
 }
 
-Places places(const Surface& surface, const TileCoordinates& coordinates, int threads) {
+// What is found in the tiles, in a stage of its own.
+template <class Find>
+auto found(int threads, const py::object& progress, const Find& find) {
+  Execution execution(threads, callback(progress));
   const py::gil_scoped_release unlocked;
-  Execution execution(threads);
-  return tiles::places(surface, coordinates, execution);
+  execution.stage("tiles", 0, 1);
+  auto result = find(execution);
+  execution.finish();
+  return result;
 }
 
-Lines lines(const Surface& surface, const TileCoordinates& coordinates, int threads) {
-  const py::gil_scoped_release unlocked;
-  Execution execution(threads);
-  return tiles::lines(surface, coordinates, execution);
+Places places(const Surface& surface, const TileCoordinates& coordinates, int threads, const py::object& progress) {
+  return found(threads, progress, [&](Execution& execution) { return tiles::places(surface, coordinates, execution); });
 }
 
-Cells cells(const Surface& surface, const TileCoordinates& coordinates, bool bricks, int threads) {
-  const py::gil_scoped_release unlocked;
-  Execution execution(threads);
+Lines lines(const Surface& surface, const TileCoordinates& coordinates, int threads, const py::object& progress) {
+  return found(threads, progress, [&](Execution& execution) { return tiles::lines(surface, coordinates, execution); });
+}
+
+Cells cells(const Surface& surface, const TileCoordinates& coordinates, bool bricks, int threads,
+            const py::object& progress) {
   const auto pattern = bricks ? tiles::Pattern::bricks : tiles::Pattern::grid;
-  const tiles::EdgeNodes nodes = tiles::edge_nodes(surface, coordinates, execution);
-  return tiles::cells(tiles::pieces(surface, coordinates, nodes, pattern, execution));
+  return found(threads, progress, [&](Execution& execution) {
+    const tiles::EdgeNodes nodes = tiles::edge_nodes(surface, coordinates, execution);
+    return tiles::cells(tiles::pieces(surface, coordinates, nodes, pattern, execution), execution);
+  });
 }
 
 std::vector<int> corner_fans(const Surface& surface, const Contiguous<bool>& is_sharp) {
@@ -277,11 +285,11 @@ void bind_tiles(py::module_& m) {
       [](const Surface& surface, const Contiguous<bool>& is_sharp) { return copy(corner_fans(surface, is_sharp)); },
       "surface"_a, "is_sharp"_a);
   m.def("crossings", &crossings, "vertices"_a, "triangles"_a, py::kw_only(), "threads"_a);
-  m.def("lines", &lines, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a);
-  m.def("cells", &cells, "surface"_a, "coordinates"_a, py::kw_only(), "bricks"_a, "threads"_a);
+  m.def("lines", &lines, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a, "progress"_a);
+  m.def("cells", &cells, "surface"_a, "coordinates"_a, py::kw_only(), "bricks"_a, "threads"_a, "progress"_a);
   m.def("tile_coordinates", &tile_coordinates, "surface"_a, "uv"_a, py::kw_only(), "inverse_lattice"_a, "origin"_a,
         "steps"_a, "turns"_a = 1, "threads"_a);
-  m.def("places", &places, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a);
+  m.def("places", &places, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a, "progress"_a);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@ namespace holomorph::tiles {
 namespace {
 
 constexpr int kNone = -1;
+constexpr double kSide = 10;  // operations: of a side of a piece in a step
 
 // Joins the pieces of each tile across sides that are not walls, and reads off the outlines.
 class Joining {
@@ -31,14 +32,19 @@ class Joining {
     }
   }
 
-  Cells run() {
-    open_flat_pieces();
-    if (p_.group.order() > 1) open_loose_ends();
-    find_cells();
-    find_what_is_no_disk();
-    find_what_is_not_simple();
-    part_broken_cells();
-    return outlines();
+  Cells run(Execution& execution) {
+    const auto step = [&](const auto& work) {
+      execution.report(1);
+      Execution::count(kSide * static_cast<double>(twin_.size()));
+      return work();
+    };
+    step([&] { open_flat_pieces(); });
+    if (p_.group.order() > 1) step([&] { open_loose_ends(); });
+    step([&] { find_cells(); });
+    step([&] { find_what_is_no_disk(); });
+    step([&] { find_what_is_not_simple(); });
+    step([&] { part_broken_cells(); });
+    return step([&] { return outlines(); });
   }
 
  private:
@@ -282,6 +288,6 @@ class Joining {
 
 }  // namespace
 
-Cells cells(const Pieces& pieces) { return Joining(pieces).run(); }
+Cells cells(const Pieces& pieces, Execution& execution) { return Joining(pieces).run(execution); }
 
 }  // namespace holomorph::tiles

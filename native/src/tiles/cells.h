@@ -21,7 +21,7 @@ struct Cells {
 /// Joins the pieces of each tile to a polygon, and so the triangles of each pole's star. A tile may have a hole, or
 /// meet itself around a limb: what is not a disk with a simple outline is cut into a few disks. So polygons fit side by
 /// side, and the Euler characteristic is that of the surface.
-/// Cost: nearly linear.
-Cells cells(const Pieces& pieces);
+/// Cost: nearly linear. @throws Cancelled
+Cells cells(const Pieces& pieces, Execution& execution);
 
 }  // namespace holomorph::tiles

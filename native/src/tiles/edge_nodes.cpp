@@ -4,12 +4,11 @@
 #include <limits>
 
 #include "base/chunks.h"
-#include "base/errors.h"
 
 namespace holomorph::tiles {
 namespace {
 
-constexpr double kMostNodes = 1e8;  // so that indices, also of what is made of them, are far below 2^31
+constexpr double kBytes = 150;  // a node, here and where it lies
 
 // The lines of one coordinate that a side crosses, one after the other.
 class Crossings {
@@ -98,7 +97,7 @@ EdgeNodes edge_nodes(const mesh::Surface& surface, const TileCoordinates& coordi
     const auto [a, b] = ends(e);
     if (is_crossed(e)) sum += Crossings(a[0], b[0], unit).count() + Crossings(a[1], b[1], unit).count();
   });
-  if (!(most < kMostNodes)) throw SolverError("edges cross " + std::to_string(most) + " lines of tiles: too many");
+  refuse_too_many(surface, most, kBytes, "places where edges cross lines of tiles");
   std::vector<EdgeNodes> parts(chunks);
   run_throwing(execution.workers(), chunks, [&](int chunk) {
     auto& part = parts[chunk];

@@ -24,7 +24,7 @@ struct EdgeNodes {
 
 /// Finds the nodes strictly between the ends of each edge, in an order that is decided exactly. A crossing of two lines
 /// at one point is one node.
-/// @throws SolverError if there are more than memory is meant for. Cost: linear in edges and nodes.
+/// Cost: linear in edges and nodes. @throws SolverError for too many
 EdgeNodes edge_nodes(const mesh::Surface& surface, const TileCoordinates& coordinates, Execution& execution);
 
 /// Returns the code of a point, whose coordinates are integers.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/chunks.h"
+#include "base/task_progress.h"
 #include "tiles/triangle_cut.h"
 
 namespace holomorph::tiles {
@@ -13,8 +14,8 @@ using Segment = std::array<int, 2>;  // from a node to a node, with what is less
 // The segments of lines across the triangles of a chunk, and along their sides. A side belongs to the first triangle at
 // its edge.
 std::vector<Segment> segments(const mesh::Surface& surface, const TileCoordinates& coordinates,
-                              const EdgeNodes& edge_nodes, int begin, int end) {
-  TriangleCut cut(surface, coordinates, edge_nodes, Pattern::columns);
+                              const EdgeNodes& edge_nodes, int begin, int end, const std::function<void()>& report) {
+  TriangleCut cut(surface, coordinates, edge_nodes, Pattern::columns, report);
   std::vector<Segment> result;
   for (int t = begin; t < end; ++t) {
     const auto& pieces = cut.cut(t);
@@ -97,8 +98,11 @@ Lines lines(const mesh::Surface& surface, const TileCoordinates& coordinates, Ex
   const EdgeNodes nodes = edge_nodes(surface, coordinates, execution);
   const int count = static_cast<int>(surface.triangles.size()), chunks = chunk_count(count);
   std::vector<std::vector<Segment>> parts(chunks);
-  run_throwing(execution.workers(), chunks, [&](int chunk) {
-    parts[chunk] = segments(surface, coordinates, nodes, chunk * kChunk, std::min((chunk + 1) * kChunk, count));
+  const double expected = static_cast<double>(nodes.codes.size()) + count;
+  TaskProgress progress(execution, expected / kReportedPieces / 2, kReportedPieces * kPieceWork);
+  run_throwing(execution.workers(), chunks, [&](int thread, int chunk) {
+    parts[chunk] = segments(surface, coordinates, nodes, chunk * kChunk, std::min((chunk + 1) * kChunk, count),
+                            [&] { progress(thread); });
   });
   std::vector<Segment> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
@@ -106,6 +110,7 @@ Lines lines(const mesh::Surface& surface, const TileCoordinates& coordinates, Ex
     for (Segment& segment : all) std::swap(segment[0], segment[1]);
   }
   const Locations places = edge_locations(surface, nodes);
+  execution.report(1);
   Lines result;
   Chains(all, static_cast<int>(places.triangles.size())).run([&](const std::vector<int>& chain, bool is_closed) {
     for (const int node : chain) result.points.push_back(places.triangles[node], places.barycentric[node]);

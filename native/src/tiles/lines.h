@@ -14,7 +14,7 @@ struct Lines {
 
 /// Finds all lines of the first coordinate, from edge to edge. A line ends on the boundary, at the star of a pole, and
 /// where other lines meet it, as at a branch point. The order is that of the first edges.
-/// Cost: linear in triangles and points. @throws SolverError if there are too many points
+/// Cost: linear in triangles and points. @throws SolverError for too many points, Cancelled
 Lines lines(const mesh::Surface& surface, const TileCoordinates& coordinates, Execution& execution);
 
 }  // namespace holomorph::tiles

@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "base/chunks.h"
+#include "base/task_progress.h"
 
 namespace holomorph::tiles {
 namespace {
 
 constexpr int kNone = -1;
+constexpr double kBytes = 500;  // a piece, with the cell that it is joined to
 
 // The pieces of one chunk of triangles: inside nodes and segments are named ~0, ~1 ...
 struct Part {
@@ -22,8 +24,8 @@ class Cutting {
           Pattern pattern)
       : surface_(surface), coordinates_(coordinates), edge_nodes_(edge_nodes), pattern_(pattern) {}
 
-  Part part(int begin, int end) const {
-    TriangleCut cut(surface_, coordinates_, edge_nodes_, pattern_);
+  Part part(int begin, int end, const std::function<void()>& report) const {
+    TriangleCut cut(surface_, coordinates_, edge_nodes_, pattern_, report);
     Part result;
     for (int t = begin; t < end; ++t) {
       const int pole = pole_of(t);
@@ -130,15 +132,24 @@ Pieces pieces(const mesh::Surface& surface, const TileCoordinates& coordinates, 
               Pattern pattern, Execution& execution) {
   const Cutting cutting(surface, coordinates, edge_nodes, pattern);
   const int count = static_cast<int>(surface.triangles.size()), chunks = chunk_count(count);
+  const double inside =
+      sum_over_rows(execution.workers(), count, 0.0, [&](int t, double& sum) { sum += tiles_in(coordinates, t); });
+  const double most = inside + edge_nodes.offsets.back() + count;
+  refuse_too_many(surface, most, kBytes, "pieces of tiles");
+  TaskProgress progress(execution, most / kReportedPieces / 2, kReportedPieces * kPieceWork);
   std::vector<Part> parts(chunks);
-  run_throwing(execution.workers(), chunks,
-               [&](int chunk) { parts[chunk] = cutting.part(chunk * kChunk, std::min((chunk + 1) * kChunk, count)); });
+  run_throwing(execution.workers(), chunks, [&](int thread, int chunk) {
+    parts[chunk] = cutting.part(chunk * kChunk, std::min((chunk + 1) * kChunk, count), [&] { progress(thread); });
+  });
   Pieces all;
   all.nodes = edge_locations(surface, edge_nodes);
   all.group = coordinates.group;
   if (pattern == Pattern::bricks) all.middle[0] = 1;
   int segments = edge_nodes.offsets.back() + static_cast<int>(surface.edges.size());
-  for (const Part& part : parts) append(all, part, cutting, segments);
+  for (const Part& part : parts) {
+    execution.report(1);
+    append(all, part, cutting, segments);
+  }
   all.is_wall.assign(segments, 0);
   std::size_t side = 0;
   for (const Part& part : parts) {

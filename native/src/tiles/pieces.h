@@ -35,7 +35,7 @@ struct Pieces {
   Point middle{0.5, 0.5};                          ///< of a cell, from its tile on
 };
 
-/// Cost: linear in triangles and pieces.
+/// Cost: linear in triangles and pieces. @throws SolverError for too many, Cancelled
 Pieces pieces(const mesh::Surface& surface, const TileCoordinates& coordinates, const EdgeNodes& edge_nodes,
               Pattern pattern, Execution& execution);
 

@@ -4,12 +4,16 @@
 #include <cmath>
 
 #include "base/chunks.h"
+#include "base/task_progress.h"
 
 namespace holomorph::tiles {
 namespace {
 
 constexpr double kRounding = 4;  // bound of the rounding of where a row meets a side, in integer coordinates
 constexpr int kNone = -1;
+constexpr double kBytes = 200;            // a place, with what callers know of it
+constexpr double kRow = 30, kPlace = 60;  // operations: of a row in a triangle, of a place
+constexpr double kAtOnce = 1e5;           // operations between two looks at whether the search is cancelled
 
 // Joins the places of one chunk of triangles to those before.
 void append(Places& all, const Places& more) {
@@ -44,21 +48,34 @@ class Search {
     }
   }
 
-  void look(int t, Places& found) const {
+  // At least so many rows of places are in a triangle.
+  double rows(int t) const {
+    const auto [first, last] = rows_of(t);
+    return std::max(last - first + 1, 0.0);
+  }
+
+  // @param report(operations) is called after each row
+  template <class Report>
+  void look(int t, Places& found, const Report& report) const {
     const auto& p = coordinates_.points[t];
-    const double unit = coordinates_.unit;
-    const auto [low, high] = std::minmax({p[0][1], p[1][1], p[2][1]});
-    const double first = std::ceil(low / unit), last = std::floor(high / unit);
-    if (first > last) return;
-    const double area = signed_area(coordinates_, t);
+    const double unit = coordinates_.unit, area = signed_area(coordinates_, t);
     if (area == 0) return;
+    const auto [first, last] = rows_of(t);
     for (double n = first; n <= last; ++n) {
       const auto [from, to] = reach(p, n * unit);
-      for (double m = std::ceil(from / unit); m <= std::floor(to / unit); ++m) look_at(t, {m, n}, area > 0, found);
+      const double begin = std::ceil(from / unit), end = std::floor(to / unit);
+      for (double m = begin; m <= end; ++m) look_at(t, {m, n}, area > 0, found);
+      report(kRow + kPlace * std::max(end - begin + 1, 0.0));
     }
   }
 
  private:
+  Point rows_of(int t) const {
+    const auto& p = coordinates_.points[t];
+    const auto [low, high] = std::minmax({p[0][1], p[1][1], p[2][1]});
+    return {std::ceil(low / coordinates_.unit), std::floor(high / coordinates_.unit)};
+  }
+
   bool is_number(const Point& p) const {
     return std::fmod(p[0], coordinates_.unit) == 0 && std::fmod(p[1], coordinates_.unit) == 0;
   }
@@ -110,9 +127,19 @@ class Search {
 Places places(const mesh::Surface& surface, const TileCoordinates& coordinates, Execution& execution) {
   const Search search(surface, coordinates);
   const int count = static_cast<int>(surface.triangles.size()), chunks = chunk_count(count);
+  // Counted before memory is taken.
+  const double most = sum_over_rows(execution.workers(), count, 0.0,
+                                    [&](int t, double& sum) { sum += tiles_in(coordinates, t) + search.rows(t); });
+  refuse_too_many(surface, most, kBytes, "rows and places in tiles");
+  TaskProgress progress(execution, (kRow + kPlace) * most / kAtOnce / 2, kAtOnce);
   std::vector<Places> parts(chunks);
-  run_throwing(execution.workers(), chunks, [&](int chunk) {
-    for (int t = chunk * kChunk, end = std::min(t + kChunk, count); t < end; ++t) search.look(t, parts[chunk]);
+  run_throwing(execution.workers(), chunks, [&](int thread, int chunk) {
+    double done = 0;
+    const auto report = [&](double operations) {
+      done += operations;
+      for (; done >= kAtOnce; done -= kAtOnce) progress(thread);
+    };
+    for (int t = chunk * kChunk, end = std::min(t + kChunk, count); t < end; ++t) search.look(t, parts[chunk], report);
   });
   Places all;
   for (const Places& part : parts) append(all, part);

@@ -19,7 +19,8 @@ struct Places {
 /// triangles has it, of a fold both or none, and the number of points less `flipped` is that of the map's degree. A
 /// point at a vertex belongs to the first triangle there, also where the map branches. Points on the boundary are
 /// included. Triangles at a pole have UVs of their own: each counts the points in it, whatever lies in the next.
-/// Cost: linear in triangles, rows in these and places, in parallel; the same at any number of threads.
+/// Cost: linear in triangles, rows in these and places, in parallel; the same at any number of threads. @throws
+/// SolverError for too many, Cancelled
 Places places(const mesh::Surface& surface, const TileCoordinates& coordinates, Execution& execution);
 
 }  // namespace holomorph::tiles

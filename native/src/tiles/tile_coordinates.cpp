@@ -1,6 +1,7 @@
 #include "tiles/tile_coordinates.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <sstream>
@@ -14,8 +15,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kWhole = 1e-3;     // of a tile: nearer jumps count as whole tiles, also of UVs in single precision
-constexpr double kMostTiles = 3e8;  // beyond, the places and what is known of them would take some 30 GB
+constexpr double kWhole = 1e-3;  // of a tile: nearer jumps count as whole tiles, also of UVs in single precision
+constexpr double kMostBytes = 1e9, kMostPerVertex = 1e5;
+constexpr double kMostThings = 1e8;  // so that indices, also of what is made of them, are far below 2^31
 constexpr int kNone = -1;
 
 Vector2d whole(const Vector2d& jump) { return jump.array().round(); }
@@ -60,13 +62,8 @@ class Making {
       for (int i = 0; i < 3; ++i) result_.points[t][i] = point(t, i);
     });
     check_edges();
-    double area = 0, whole = 0;
-    for (int t = 0; t < count; ++t) {
-      const double own = signed_area(result_, t) / 2 / (result_.unit * result_.unit);
-      area += own;
-      whole += std::abs(own);
-    }
-    if (!(whole < kMostTiles)) throw SolverError("the surface has " + std::to_string(whole) + " tiles: too many");
+    double area = 0;
+    for (int t = 0; t < count; ++t) area += signed_area(result_, t);
     result_.is_mirrored = area < 0;
     return std::move(result_);
   }
@@ -177,6 +174,12 @@ class Making {
 TileCoordinates tile_coordinates(const mesh::Surface& surface, const Eigen::Ref<const Corners>& uv,
                                  const TileFrame& frame, Execution& execution) {
   return Making(surface, uv, frame).run(execution.workers());
+}
+
+void refuse_too_many(const mesh::Surface& surface, double count, double bytes, const std::string& things) {
+  const double most = std::max(kMostBytes, kMostPerVertex * surface.vertex_count) / bytes;
+  if (count < std::min(most, kMostThings)) return;
+  throw SolverError("the surface has " + std::to_string(std::llround(count)) + " " + things + ": too many");
 }
 
 }  // namespace holomorph::tiles

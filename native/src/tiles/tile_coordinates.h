@@ -4,7 +4,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/double_double.h"
@@ -61,8 +63,7 @@ struct Transition {
 /// its triangles, up to turns and whole tiles. A cone lies at a centre of turns.
 /// @param uv #C x 2
 /// @throws TopologyError where UVs are not those of a tiling, naming the place: not finite, too large, a jump that is
-/// no whole number of tiles, or one that differs at the two ends of an edge. SolverError for more tiles than memory is
-/// meant for
+/// no whole number of tiles, or one that differs at the two ends of an edge
 TileCoordinates tile_coordinates(const mesh::Surface& surface, const Eigen::Ref<const Corners>& uv,
                                  const TileFrame& frame, Execution& execution);
 
@@ -74,11 +75,20 @@ inline Transition transition(const TileCoordinates& coordinates, int turn, const
            static_cast<std::int64_t>((to[1] - turned[1]) / coordinates.unit)}};
 }
 
+/// Refuses what would take more than a gigabyte, and more than 100 kB a vertex. @throws SolverError
+/// @param count of things to be made, with so many bytes each; things as in "the surface has 10 <things>"
+void refuse_too_many(const mesh::Surface& surface, double count, double bytes, const std::string& things);
+
 /// Twice the signed area of triangle t, in squares of the unit, positive as most are; exactly 0 where it is.
 inline double signed_area(const TileCoordinates& coordinates, int t) {
   const auto& [a, b, c] = coordinates.points[t];
   const double area = orientation(a, b, c);
   return coordinates.is_mirrored ? -area : area;
+}
+
+/// The area of triangle t in tiles.
+inline double tiles_in(const TileCoordinates& coordinates, int t) {
+  return std::abs(signed_area(coordinates, t)) / 2 / (coordinates.unit * coordinates.unit);
 }
 
 }  // namespace holomorph::tiles

@@ -6,8 +6,6 @@
 namespace holomorph::tiles {
 namespace {
 
-int sign(std::int64_t a) { return a > 0 ? 1 : a < 0 ? -1 : 0; }
-
 double middle(std::int64_t code) { return static_cast<double>(code) / 2; }
 
 }  // namespace
@@ -17,7 +15,12 @@ bool TriangleCut::has_pole(int t) const {
   return coordinates_.is_pole[a] || coordinates_.is_pole[b] || coordinates_.is_pole[c];
 }
 
+void TriangleCut::count_piece() {
+  if (++made_ % kReportedPieces == 0) report_();
+}
+
 const std::vector<Piece>& TriangleCut::cut(int t) {
+  count_piece();
   triangle_ = t;
   crossings_.clear();
   row_segments_.clear();
@@ -87,6 +90,8 @@ void TriangleCut::append_side(int t, int i, Piece& ring) const {
   }
 }
 
+// Every crossing of a line is a corner. Along the outline of a convex piece, also of one without area, codes ascend and
+// descend once: between two lines there is one part of either side.
 void TriangleCut::cut_along(int axis, Piece whole, std::vector<Piece>& pieces) {
   Code low = whole[0].code, high = low;
   for (const PieceCorner& corner : whole) {
@@ -96,30 +101,38 @@ void TriangleCut::cut_along(int axis, Piece whole, std::vector<Piece>& pieces) {
     }
   }
   const std::int64_t row = between(low[1], high[1]);
+  std::size_t up = 0, down = 0;  // the corners of the last cut: where codes ascend, and where they descend
+  const auto code = [&](std::size_t i) { return whole[i % whole.size()].code[axis]; };
   // Lines have even codes. Those strictly between the lowest and the highest corner cut the piece.
   for (std::int64_t line = low[axis] + 2 - (low[axis] & 1); line < high[axis]; line += 2) {
-    if (axis == 1 || has_column(line, row)) pieces.push_back(split(axis, line, whole));
+    if (axis == 0 && !has_column(line, row)) continue;
+    count_piece();
+    Piece below;
+    if (down == 0) {
+      while (code(up) != line || code(up + 1) <= line) ++up;
+      std::ranges::rotate(whole, whole.begin() + static_cast<std::ptrdiff_t>(up));
+      up = 0;
+      for (down = 1; code(down) > line;) ++down;
+      below.assign(whole.begin() + static_cast<std::ptrdiff_t>(down), whole.end());
+      below.push_back(whole[0]);
+    } else {
+      const std::size_t last_up = up, last_down = down;
+      while (code(up + 1) <= line) ++up;
+      while (code(down - 1) <= line) --down;
+      const auto at = [&](std::size_t i) { return whole.begin() + static_cast<std::ptrdiff_t>(i); };
+      below.assign(at(down), at(last_down + 1));
+      below.insert(below.end(), at(last_up), at(up + 1));
+    }
+    assert(code(up) == line && code(down) == line);
+    const int segment = axis == 1 ? kRow : ~segment_count_++;
+    below.back().segment = whole[down].segment = segment;
+    pieces.push_back(std::move(below));
+  }
+  if (down != 0) {
+    whole.erase(whole.begin() + static_cast<std::ptrdiff_t>(down) + 1, whole.end());
+    whole.erase(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(up));
   }
   pieces.push_back(std::move(whole));
-}
-
-// Takes away, and returns, what lies below the line, of which every crossing is a corner. Along the outline of a convex
-// piece, also of one without area, codes ascend and descend once: above the line is one part of it. @pre there are
-// corners on both sides
-Piece TriangleCut::split(int axis, std::int64_t line, Piece& ring) {
-  const auto side = [&](const PieceCorner& corner) { return sign(corner.code[axis] - line); };
-  std::size_t up = 0;
-  while (side(ring[up]) != 0 || side(ring[(up + 1) % ring.size()]) <= 0) ++up;
-  std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(up), ring.end());
-  const auto down = std::find_if(ring.begin() + 1, ring.end(), [&](const auto& corner) { return side(corner) <= 0; });
-  assert(down != ring.end() && side(*down) == 0);
-  const int segment = axis == 1 ? kRow : ~segment_count_++;
-  Piece low(down, ring.end());
-  low.push_back(ring.front());
-  low.back().segment = segment;
-  ring.erase(down + 1, ring.end());
-  ring.back().segment = segment;
-  return low;
 }
 
 // Adds a corner wherever a column crosses the rows below and above, also for columns of the pieces on the other side.

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "tiles/edge_nodes.h"
 
@@ -22,6 +24,9 @@ using Piece = std::vector<PieceCorner>;
 /// rows.
 enum class Pattern { columns, grid, bricks };
 
+inline constexpr int kReportedPieces = 256;
+inline constexpr double kPieceWork = 500;  ///< operations for a piece
+
 /// Nodes: the vertices, then those on edges, in their order; inside of triangles they are ~0, ~1 ... in the order in
 /// which they are found. Segments: edge e has segments(e) and following, one more than nodes; inside of triangles they
 /// are ~0, ~1 ... as well. Only integers are compared, so pieces of neighbouring triangles fit, whatever the UVs are.
@@ -32,9 +37,14 @@ class TriangleCut {
     Code code;
   };
 
+  /// @param report is called every kReportedPieces, and may throw
   TriangleCut(const mesh::Surface& surface, const TileCoordinates& coordinates, const EdgeNodes& edge_nodes,
-              Pattern pattern)
-      : surface_(surface), coordinates_(coordinates), edge_nodes_(edge_nodes), pattern_(pattern) {}
+              Pattern pattern, std::function<void()> report)
+      : surface_(surface),
+        coordinates_(coordinates),
+        edge_nodes_(edge_nodes),
+        pattern_(pattern),
+        report_(std::move(report)) {}
 
   /// The pieces of triangle t, valid until the next is cut. One that touches a pole stays whole.
   const std::vector<Piece>& cut(int t);
@@ -57,10 +67,10 @@ class TriangleCut {
  private:
   static constexpr int kRow = std::numeric_limits<int>::min();  // a segment on a row, not yet cut by columns
 
+  void count_piece();
   Piece outline(int t) const;
   void append_side(int t, int i, Piece& ring) const;
   void cut_along(int axis, Piece whole, std::vector<Piece>& pieces);
-  Piece split(int axis, std::int64_t line, Piece& ring);
   Piece with_crossings(const Piece& row);
   PieceCorner crossing(std::int64_t column, std::int64_t row);
   static std::int64_t between(std::int64_t low, std::int64_t high) { return (low == high ? low : low | 1) >> 1; }
@@ -76,6 +86,8 @@ class TriangleCut {
   const TileCoordinates& coordinates_;
   const EdgeNodes& edge_nodes_;
   Pattern pattern_;
+  std::function<void()> report_;
+  int made_ = 0;  // pieces
   int triangle_ = 0;
   std::vector<Piece> pieces_;
   std::vector<Inside> nodes_;

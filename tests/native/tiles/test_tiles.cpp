@@ -103,7 +103,7 @@ TEST_P(Folded, PiecesFitSideBySideAndHaveTheArea) {
       EXPECT_EQ(both[0].second, both[1].first);
     }
     EXPECT_NEAR(area, 8 * kAround * kAlong, 1e-8);
-    const Cells made = cells(all);
+    const Cells made = cells(all, execution);
     std::vector<char> is_end(made.vertices.triangles.size(), 0);
     for (const int vertex : made.corner_vertices) is_end[vertex] = 1;
     EXPECT_EQ(std::count(is_end.begin(), is_end.end(), 0), 0);
