@@ -16,6 +16,12 @@ def scaled(progress: Progress | None, begin: float, end: float) -> Progress | No
     return lambda fraction, stage: progress(begin + (end - begin) * fraction, stage)
 
 
+def tell(progress: Progress | None, fraction: float, stage: str) -> None:
+    """Calls the function, if there is one. Raises Cancelled where it returns False."""
+    if progress is not None and progress(fraction, stage) is False:
+        raise Cancelled("cancelled by the progress function")
+
+
 class Watch:
     """A progress function that keeps what it was told, for a thread that looks at the work and may cancel it.
 

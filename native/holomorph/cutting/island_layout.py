@@ -10,6 +10,7 @@ import numpy as np
 from .. import _native
 from ..core import arrays
 from ..core.array_types import Flags, Integers, Progress, Reals
+from ..core.progress import tell
 from ..core.value import Value, counted
 from ..mesh.hard_edges import seen
 from ..mesh.surface import Surface
@@ -107,6 +108,7 @@ class Flattened:
         (uv, is_held), joints = _upright(self.pieces, flat_uv), self.cuts.joints()
         may = self.flat.is_flat, is_held & self.is_upright  # be joined, and not be turned
         uv, nets = _native.joined(self.pieces._native, uv, _preferred(uv, joints), *may, self.progress)
+        tell(self.progress, 0.0, "layout")
         corners = len(self.surface.corner_vertices)
         uv, count = _packed(uv[:corners], nets[corner_pieces(self.pieces)][:corners])
         seams = self.cuts.mask & ~_is_continuous(self.cuts, uv, joints)
@@ -126,7 +128,7 @@ class Flattened:
         quality = Quality.of(self.surface._native, uv, self.threads)
         if self.is_upright:
             quality = quality.upright(uv, self.surface.up)
-        return replace(quality, overlapping_part=overlapping_part(border))
+        return replace(quality, overlapping_part=overlapping_part(border, self.progress))
 
 
 def visible_lengths(surface: Surface, bends: Reals, seams: Flags) -> tuple[float, float]:

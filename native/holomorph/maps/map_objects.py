@@ -53,7 +53,7 @@ def map_objects(
     parts are made side by side, and copies of one part once. What has no map, also for want of memory, gets the error.
     """
     requests = [request for parts in objects for request in parts]
-    made, leader, others = _map_parts(requests, _alike(objects), size, threads, progress)
+    made, leader, others = _map_parts(requests, _alike(objects, progress), size, threads, progress)
     result, first = [], 0
     for parts in objects:
         last = first + len(parts)
@@ -86,7 +86,7 @@ def _of_copy(found, request, scale):
     return found.of_copy(request.surface, request.structure, scale)
 
 
-def _alike(objects):
+def _alike(objects, progress):
     """The `Copy` that each part is, of one of its own object, or of exactly the same in another: so an object alone has
     the maps that it has beside others. Parts of which something else is asked are not copies. Nor are those that are
     turned about the vertical if u is to run along a vector."""
@@ -94,7 +94,7 @@ def _alike(objects):
     for requests in objects:
         surfaces, keys, first = [one.surface for one in requests], [one.key for one in requests], len(result)
         is_level = all(isinstance(one.direction, (str, type(None))) for one in requests)
-        found = copies(surfaces) if is_level else map(Copy, range(len(requests)))
+        found = copies(surfaces, progress) if is_level else map(Copy, range(len(requests)))
         for k, copy in enumerate(found):
             if copy.first != k and keys[copy.first] == keys[k]:
                 known = result[first + copy.first]

@@ -8,11 +8,13 @@ from functools import cached_property
 
 import numpy as np
 
-from ..core.array_types import Reals
+from ..core.array_types import Progress, Reals
+from ..core.progress import tell
 from .surface import Surface
 
 SINGLE = 2.0**-22  # rounding of differences of coordinates in single precision, relative to the largest coordinate
 NEAR = 1.001  # times the rounding of two names, for that of the sums themselves
+AT_ONCE = 256  # parts between two looks at whether to go on
 MOST_ROUNDING = 1e-3  # over the mean edge: parts so far from the origin are no longer known to be alike
 
 
@@ -24,11 +26,15 @@ class Copy:
     scale: float = 1.0
 
 
-def copies(parts: Sequence[Surface]) -> list[Copy]:
+def copies(parts: Sequence[Surface], progress: Progress | None = None) -> list[Copy]:
     """The `Copy` that each part is: of the first part with the same polygons and triangles, numbered alike, whose
-    lengths and heights are the same but for one factor and the rounding of single precision. O(#C + n log n)."""
+    lengths and heights are the same but for one factor and the rounding of single precision. O(#C + n log n).
+
+    progress : is asked whether to go on"""
     found, alike = [], {}
     for k, part in enumerate(parts):
+        if k % AT_ONCE == AT_ONCE - 1:
+            tell(progress, 0.0, "copies")
         shape = _Shape.of(part)
         known = alike.setdefault((part.face_offsets.tobytes(), part.triangles.tobytes()), _Known())
         copy = known.copy_of(shape)

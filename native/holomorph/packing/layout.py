@@ -27,28 +27,13 @@ GAP_ROUNDS = 4  # the gap is a share of a side that depends on the gap; each rou
 
 def rows(sizes: Reals, width: float, gap: float) -> tuple[Reals, tuple[float, float]]:
     """((n, 2) lower left corners, (w, h) of the whole): the rectangles of (n, 2) `sizes` on shelves of `width`."""
-    return _rows(sizes, real_number(width, "width"), real_number(gap, "gap"))
-
-
-def _rows(sizes, width, gap):
-    order = np.argsort(-sizes[:, 1], kind="stable")
-    corners = np.zeros_like(sizes)
-    x = y = widest = height = 0.0
-    for index in order:
-        w, h = sizes[index]
-        if x > 0 and x + w > width:
-            x, y = 0.0, y + height + gap
-            height = 0.0
-        corners[index] = x, y
-        widest, height = max(widest, x + w), max(height, h)
-        x += w + gap
-    return corners, (widest, y + height)
+    return _native.on_shelves(sizes, real_number(width, "width"), real_number(gap, "gap"))
 
 
 def _best_rows(sizes, gap):
     padded = sizes + gap
     square = max(math.sqrt(float(np.prod(padded, axis=1).sum())), float(sizes[:, 0].max()))
-    found = [_rows(sizes, width, gap) for width in np.geomspace(square, WIDEST * square, WIDTHS)]
+    found = [_native.on_shelves(sizes, width, gap) for width in np.geomspace(square, WIDEST * square, WIDTHS)]
     return min(found, key=lambda layout: max(layout[1]))  # the first of equals
 
 

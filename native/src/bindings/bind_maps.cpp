@@ -3,6 +3,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "bindings/arrays.h"
@@ -14,6 +15,7 @@
 #include "islands/fill_holes.h"
 #include "islands/flattening.h"
 #include "islands/merge_islands.h"
+#include "islands/shelves.h"
 #include "islands/split_overlaps.h"
 #include "multiresolution/harmonic_map.h"
 #include "plane/free_boundary.h"
@@ -260,10 +262,19 @@ py::array parted(const mesh::Surface& surface, const Contiguous<double>& uv, con
   return give(std::move(parts));
 }
 
+// ((n, 2) lower left corners, (w, h) of the whole)
+std::pair<py::array, std::pair<double, double>> on_shelves(const Contiguous<double>& sizes, double width, double gap) {
+  const islands::Shelves made = islands::on_shelves(rows<double, 2>(sizes), width, gap);
+  py::array_t<double> corners({sizes.shape(0), py::ssize_t{2}});
+  std::copy_n(made.corners.data()->data(), sizes.size(), corners.mutable_data());
+  return {read_only(std::move(corners)), {made.whole[0], made.whole[1]}};
+}
+
 void bind_islands(py::module_& m) {
   py::class_<Flattening>(m, "Flattening")
       .def_property_readonly("scale_factors", [](const Flattening& flat) { return copy(flat.scale_factors); })
       .def_property_readonly("is_flat", [](const Flattening& flat) { return copy(flat.is_flat); });
+  m.def("on_shelves", &on_shelves, py::arg("sizes"), py::arg("width"), py::arg("gap"));
   m.def("cuts_to_disks", &cuts_to_disks, py::arg("surface"), py::arg("progress"));
   m.def("filled", &filled, py::arg("surface"));
   m.def("flattened", &flattened, py::arg("surface"), py::arg("threads"), py::arg("progress"));

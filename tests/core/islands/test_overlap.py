@@ -3,7 +3,8 @@
 import families
 import numpy as np
 import pytest
-from holomorph import Surface, conformal_structure, free_boundary_map, islands
+from holomorph import Cancelled, Surface, conformal_structure, free_boundary_map, islands
+from holomorph.quality import overlap
 from holomorph.quality.overlap import MOST_ROWS, overlapping_part
 from holomorph.quality.verdicts import baking
 from solved import surface_of
@@ -56,6 +57,15 @@ def test_a_narrow_overlap_is_found():
     """It is a hundredth of the height, which is many lines."""
     curve = np.concatenate([closed(finely(SQUARE)), closed(finely(np.add(SQUARE, 0.99j)))])
     assert MOST_ROWS >= 256 * 8 and overlapping_part(curve) == pytest.approx(0.01 / 1.99, rel=0.1)
+
+
+@pytest.mark.parametrize("at_once", [1, 700, 10**9])
+def test_lines_may_be_looked_at_in_parts(monkeypatch, at_once):
+    whole = overlapping_part(OVERLAPPING_SQUARES)
+    monkeypatch.setattr(overlap, "AT_ONCE", (at_once, 0))
+    assert overlapping_part(OVERLAPPING_SQUARES) == pytest.approx(whole, rel=ROUNDING)
+    with pytest.raises(Cancelled):
+        overlapping_part(OVERLAPPING_SQUARES, lambda *_: False)
 
 
 def helix(turns, n=200):
