@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The one button and *Seamless Tiling* beside Smart UV Project and Unwrap along Smart UV's seams, on every mesh object
-of files, or on irregular surfaces of genus 2.
+of files, or on irregular surfaces of genus 2; with the packages xatlas and igl also these (other_unwraps.py).
 
     blender -b --factory-startup --python-exit-code 1 --python benchmarks/blender_click.py -- \\
-        [FILE...] [--faces N...] [--json FILE] [--only-button]
+        [FILE...] [--faces N...] [--packages FOLDER] [--json FILE] [--only-button]
 
 With Blender as a Python module: python benchmarks/blender_click.py -- FILE...
 
@@ -13,7 +13,7 @@ area without a map; the 95 : 5 % ratio of the texture's density by area; mean s1
 whichever way it faces, for in a one-sided mesh half of them face the other); and the length, over that of the object's
 diagonal, of the edges across which a tiling texture breaks off, because the two sides do not differ by integers, after
 quarter turns, which leave the checker as it is. The last columns say whether the button is no worse than each of the
-others, see `is_no_worse`, and how its time compares with the fastest of those that are no worse than it.
+others, see `is_no_worse`, and how many times faster it is than the fastest of those that are no worse than it.
 """
 
 import argparse
@@ -28,6 +28,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import meshes
+import other_unwraps
 
 import addon
 from addon import native
@@ -42,20 +43,26 @@ EVEN, HARDLY_LESS_EVEN = 3.0, 1.3  # a density ratio that is even, and the facto
 UNSEEN_SHEAR, HARDLY_MORE_SHEARED = 1.3, 0.1  # mean s1/s2, where it is spread over the surface
 HARDLY_LONGER = 1.01
 UNWRAPS = {"ANGLE_BASED": "angle based", "MINIMUM_STRETCH": "minimum stretch"}
-OTHERS = ("smart", *UNWRAPS.values())
+OTHERS = ("smart", *UNWRAPS.values(), "xatlas", "igl LSCM", "igl SLIM")
 OURS = {"button": "holomorphic_maps", "tiling": "holomorphic_tile"}
 
 
-def triangle_measures(obj, uv):
-    """Areas in space, densities (area in UVs by area in space) and s1/s2 of the object's triangles."""
+def triangles_of(obj):
+    """(#T, 3) loops, and vertices."""
     mesh = obj.data
     mesh.calc_loop_triangles()
     corners = np.empty(3 * len(mesh.loop_triangles), np.int32)
     mesh.loop_triangles.foreach_get("loops", corners)
     vertices = np.empty(len(mesh.loops), np.int32)
     mesh.loops.foreach_get("vertex_index", vertices)
-    x = mesh_io.world_points(obj)[vertices[corners]].reshape(-1, 3, 3)
-    z = uv[corners].reshape(-1, 3, 2) @ [1, 1j]
+    return corners.reshape(-1, 3), vertices[corners].reshape(-1, 3)
+
+
+def triangle_measures(obj, uv):
+    """Areas in space, densities (area in UVs by area in space) and s1/s2 of the object's triangles."""
+    corners, vertices = triangles_of(obj)
+    x = mesh_io.world_points(obj)[vertices]
+    z = uv[corners] @ [1, 1j]
     a, b = x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]
     area = np.linalg.norm(np.cross(a, b), axis=1) / 2
     keep = area > 1e-12 * area.sum()
@@ -117,11 +124,15 @@ def edges(obj, vertex, following):
     return np.unique(ends, axis=0, return_inverse=True)[1].ravel(), place < place[following]
 
 
-def measured(obj):
-    mesh = obj.data
-    uv = np.empty(2 * len(mesh.loops), np.float32)
-    mesh.uv_layers.active.data.foreach_get("uv", uv)
-    uv = uv.reshape(-1, 2).astype(np.float64)
+def active_uv(obj):
+    uv = np.empty(2 * len(obj.data.loops), np.float32)
+    obj.data.uv_layers.active.data.foreach_get("uv", uv)
+    return uv.reshape(-1, 2).astype(np.float64)
+
+
+def measured(obj, uv=None):
+    """Measures the UVs of the loops, by default the active ones."""
+    uv = active_uv(obj) if uv is None else uv
     area, density, stretch = triangle_measures(obj, uv)
     low, median, high = quantiles(area, density, [0.05, 0.5, 0.95])
     return {
@@ -159,13 +170,13 @@ def choose(obj):
     bpy.context.view_layer.objects.active = obj
 
 
-def compare(obj, only_button):
+def compare(obj, packages, only_button):
     choose(obj)
     row = {"object": obj.name, "faces": len(obj.data.polygons)}
     for name, operator in OURS.items():
         jobs.KEPT.clear()
         try:
-            seconds = timed(getattr(bpy.ops.uv, operator))
+            seconds, _ = timed(getattr(bpy.ops.uv, operator))
         except RuntimeError as error:
             return row | {"refused": " ".join(str(error).split())}
         row[name] = measured(obj) | {"seconds": seconds}
@@ -174,25 +185,31 @@ def compare(obj, only_button):
         if only_button:
             return row
     obj.data.uv_layers.active = obj.data.uv_layers.new(name="Smart UV Project")
-    seconds = timed(in_edit_mode, (bpy.ops.uv.smart_project, {}))
+    seconds, _ = timed(in_edit_mode, (bpy.ops.uv.smart_project, {}))
     in_edit_mode((bpy.ops.uv.seams_from_islands, {}))
     row["smart"] = measured(obj) | {"seconds": seconds}
+    corners, vertices = triangles_of(obj)
+    points, islands, uv = mesh_io.world_points(obj), active_uv(obj)[corners], active_uv(obj)
+    for name, method in packages.items():
+        seconds, made = timed(method, points, vertices, islands)
+        uv[corners] = made.astype(np.float32)
+        row[name] = measured(obj, uv) | {"seconds": seconds}
     known = {item.identifier for item in bpy.ops.uv.unwrap.get_rna_type().properties["method"].enum_items}
     for method in [method for method in UNWRAPS if method in known]:
-        seconds = timed(in_edit_mode, (bpy.ops.uv.unwrap, {"method": method}))
+        seconds, _ = timed(in_edit_mode, (bpy.ops.uv.unwrap, {"method": method}))
         row[UNWRAPS[method]] = measured(obj) | {"seconds": seconds}
     others = [row[name] for name in OTHERS if name in row]
     row["no worse"] = all(is_no_worse(row["button"], other) for other in others)
     equal = [other["seconds"] for other in others if is_no_worse(other, row["button"])]
-    row["times the fastest as good"] = row["button"]["seconds"] / min(equal) if equal else None
+    row["faster"] = min(equal) / row["button"]["seconds"] if equal else None
     return row
 
 
 def timed(work, *arguments, **options):
-    """Processor seconds of a call."""
+    """(Processor seconds of a call, what it returns)."""
     begin = time.process_time()
-    work(*arguments, **options)
-    return time.process_time() - begin
+    made = work(*arguments, **options)
+    return time.process_time() - begin, made
 
 
 def objects_of(path):
@@ -225,14 +242,14 @@ def irregular(faces):
     return obj
 
 
-def rows_of(path, only_button):
+def rows_of(path, packages, only_button):
     names = [obj.name for obj in objects_of(path)]
-    return [compare(bpy.data.objects[name], only_button) for name in names]
+    return [compare(bpy.data.objects[name], packages, only_button) for name in names]
 
 
 def lines(rows):
     heads = f"{'seconds':>8} {'lost':>7} {'95:5':>9} {'s1/s2':>7} {'visible':>8}"
-    yield f"{'object':28} {'':15} {heads}  no worse  times the fastest as good"
+    yield f"{'object':28} {'':15} {heads}  no worse  times faster than the fastest as good"
     for row in rows:
         if "refused" in row:
             yield f"{row['object']:28} refused: {row['refused']}"
@@ -242,8 +259,8 @@ def lines(rows):
                 numbers = f"{of['seconds']:8.2f} {of['lost']:7.2%} {of['95:5']:9.4g} {of['s1/s2']:7.4f}"
                 numbers += f" {of['visible']:8.3f}"
                 if name == "button":
-                    times = row.get("times the fastest as good")
-                    beside = f"{times:.3g}" if times else "none is as good"
+                    faster = row.get("faster")
+                    beside = f"{faster:.3g}" if faster else "none is as good"
                     end = f"  {'yes' if row.get('no worse') else 'NO'}  {beside}  {row['verdict']}"
                 yield f"{row['object'] if name == 'button' else '':28} {name:15} {numbers}{end}"
     judged = [row["no worse"] for row in rows if "no worse" in row]
@@ -254,12 +271,16 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("files", nargs="*", type=Path)
     parser.add_argument("--faces", nargs="*", type=int, default=())
+    parser.add_argument("--packages", type=Path, help="where xatlas, igl and SciPy are; Blender's own NumPy is kept")
     parser.add_argument("--json", type=Path)
     parser.add_argument("--only-button", action="store_true")
     options = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
     addon.register()
-    rows = [row for path in options.files for row in rows_of(path, options.only_button)]
-    rows += [compare(irregular(faces), options.only_button) for faces in options.faces]
+    if options.packages:
+        sys.path.append(str(options.packages))
+    how = {} if options.only_button else other_unwraps.known(), options.only_button
+    rows = [row for path in options.files for row in rows_of(path, *how)]
+    rows += [compare(irregular(faces), *how) for faces in options.faces]
     print("\n".join(lines(rows)))
     if options.json:
         options.json.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")

@@ -139,7 +139,7 @@ SUITES = {
     "blender-3.4": Suite(
         "tests/blender in Debian's Blender.",
         [in_blender("blender-3.4")],
-        environment="make_blender_folder pytest pytest-timeout",
+        environment="make_blender_folder debian-pytest pytest pytest-timeout",
         blender="needed",
     ),
     "bpy-5.2": bpy("5.2", "3.13"),
@@ -149,7 +149,7 @@ SUITES = {
     "injection": Suite(
         "tests/injection: an error at every line that an operator runs, in each mode, in Blender 3.4 and 5.2.",
         [pytest("injection", "tests/injection", timeout=3600, library="")],
-        environment="make_test_venv; make_blender_folder pytest pytest-timeout; make_bpy_venv bpy-5.2",
+        environment="make_test_venv; make_blender_folder debian-pytest pytest pytest-timeout; make_bpy_venv bpy-5.2",
         blender="needed",
         python="3.13",
         times=8,
