@@ -5,6 +5,7 @@ import itertools
 
 import holomorph
 import numpy as np
+import periods
 from figure_surfaces import double_torus, square_ring, torus
 from figure_views import (
     BLUE,
@@ -178,3 +179,19 @@ def bounds():
     ax.minorticks_off()
     ax.set_xlabel("edge length h")
     save(figure, "bounds", "svg")
+
+
+def digits():
+    """Width of the bounds of X_0(11), 24 flat triangles, against unknowns."""
+    series = periods.convergence(periods.dessins.modular_curve(11))
+    figure, axes = plt.subplots(1, 2, figsize=(7.2, 2.9), sharey=True, gridspec_kw=dict(wspace=0.06))
+    orders = (1, 2, 3, 4, 6, 8)
+    colours = plt.get_cmap("viridis")(np.linspace(0, 0.85, len(orders)))
+    for ax, ending, title in zip(axes, ("", ", layers"), ("refined evenly", "2 p layers at cone points"), strict=True):
+        for p, colour in zip(orders, colours, strict=True):
+            ax.loglog(*np.transpose(series[f"{p}{ending}"]), "o-", ms=3, lw=1.2, color=colour, label=f"p = {p}")
+        ax.set_title(title, fontsize=9)
+        ax.set_xlabel("unknowns")
+    axes[0].set_ylabel("relative width of the bounds")
+    axes[0].legend(fontsize=7, ncols=2, frameon=False, loc="lower left")
+    save(figure, "digits", "svg")

@@ -10,12 +10,12 @@ figure_views.py. The same versions of NumPy and matplotlib draw the same files a
 
 import sys
 
-from figures_of_forms import bounds, conjugate, cut_graph, harmonic, lattice
+from figures_of_forms import bounds, conjugate, cut_graph, digits, harmonic, lattice
 from figures_of_maps import annulus, balance, holes, levels, log_map, zeros_and_seams
 
 FIGURES = dict(
     cut_graph=cut_graph, harmonic=harmonic, conjugate=conjugate, bounds=bounds, annulus=annulus, holes=holes,
-    log_map=log_map, lattice=lattice, zeros=zeros_and_seams, balance=balance, levels=levels,
+    log_map=log_map, lattice=lattice, zeros=zeros_and_seams, balance=balance, levels=levels, digits=digits,
 )  # fmt: skip
 
 if __name__ == "__main__":

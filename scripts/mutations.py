@@ -28,6 +28,8 @@ THETA = CORE + "moduli/test_hyperelliptic.py"
 SIMILAR = CORE + "moduli/test_similarities.py"
 REFINED = CORE + "conformal/test_refined_triangles.py"
 NARROW = CORE + "conformal/test_narrow_bounds.py"
+ELEMENTS = CORE + "conformal/test_element_energies.py"
+REFERENCE = CORE + "conformal/test_reference_elements.py"
 DENSE = "native:*CertainBounds*"
 DIGITS = "native:DoubleDouble*"
 SLIVERS = CORE + "mesh/test_slivers.py"
@@ -107,12 +109,27 @@ MUTATIONS = (
         ("sums-cut", "(a - (sum - taken)) + (b - taken)", "b - taken", DIGITS),
     )
     | of(
+        ROOM + "elements/reference_element.cpp",
+        ("elements-double", "DoubleDouble{G(n, s)} * row[s]", "DoubleDouble{G(n, s) * row[s].high}", REFERENCE),
+        ("elements-jacobi", "jacobi(b - 1, 2 * a - 2)", "jacobi(b - 1, 2 * a - 1)", REFERENCE),
+    )
+    | of(
+        ROOM + "elements/element_forms.cpp",
+        ("elements-metric", "sums[i].uncertain += own", "sums[i].uncertain += 0.9 * own", ELEMENTS),
+        ("elements-signs", "if (k % 2 == 1) signs", "if (k % 2 == 0) signs", ELEMENTS),
+    )
+    | of(
+        ROOM + "mesh/metric_errors.cpp",
+        ("elements-faces", "error * cotangent + (1 + error) * rounding", "rounding", ELEMENTS),
+    )
+    | of(
         PACKAGE + "forms/refined_triangles.py",
-        ("medians", "OF_MEDIAN = 2.5 *", "OF_MEDIAN = 0.25 *", REFINED),
-        ("medians-growth", "change * (1 + change), 1)", "0.1 * change, 1)", REFINED),
-        ("medians-after-others", "errors + growth + errors * growth", "errors + growth", REFINED),
+        ("distances", "OF_DISTANCE = 3 *", "OF_DISTANCE = 0.3 *", REFINED),
+        ("distances-exact", "np.zeros(len(t)) if is_exact else UNIT * length", "np.zeros(len(t))", REFINED),
+        ("lengths-growth", "change * (1 + change), 1)", "0.1 * change, 1)", REFINED),
+        ("lengths-after-others", "errors + growth + errors * growth", "errors + growth", REFINED),
         ("areas-of-needles", "(c - (a - b)) * (c + (a - b))", "(c - a + b) * (c + a - b)", REFINED),
-        ("halves-of-classes", "np.where(along[:, None], whole.classes, 0)", "whole.classes", NARROW),
+        ("points-of-classes", "at_end == self.along[t, side]", "at_end", REFINED),
     )
     | of(
         PACKAGE + "forms/certificate.py",

@@ -1,18 +1,23 @@
-"""Bounds as narrow as asked for: the surface refined inside, by intrinsic triangles, until they are."""
+"""Bounds as narrow as asked for: forms by elements of higher order on a surface refined inside, until they are."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from .. import _native
+from .._native import SolverError
 from ..core.value import Value, counted
 from .certificate import OPEN, relative_width
-from .refined_triangles import Triangles, gaps, refined, worst
+from .refined_triangles import CUT, Triangles, corner_angles, halved, with_layers, worst
 
-PART = 0.05, 0.4  # least and largest part of all gaps between energies that the marked triangles have
-QUARTERED = 0.75  # part of its gap that a triangle loses when it is cut in four, where forms are smooth
-MOST_LEVELS = 60
-LEAST_GAIN = 1e-3  # a level that narrows the bounds by a smaller part is the last: rounding is reached
+MOST_ORDER = 10
+MOST_LEVELS = 20
+FALL = 0.12  # part of the gaps that the next order leaves where forms are smooth
+HALVED = 0.8  # part of the gaps that the triangles have whose sides are halved, where no order is enough
+ROUNDING = 0.1  # gaps that add up to less of the width leave it to rounding
+ENOUGH = 0.8  # of the width asked for: what a level aims at
+SMOOTH = 1e-6  # by what the exponent of a form at a vertex may differ from an integer, and count as one
+REACHED = "the bounds are as narrow as asked for"
 
 
 @dataclass(frozen=True, repr=False)
@@ -23,75 +28,155 @@ class Refinement(Value):
     ----------
     reached : whether they are as narrow as asked for
     reason : why the refinement ended, one sentence
-    levels : (triangles, relative width) of each triangulation, the surface's own first; nested, so never wider
+    levels : (triangles, relative width) of each triangulation that was solved on, the surface's own first; never wider
+    orders : of the polynomials on their triangles; 1, linear functions, on the surface's own
     """
 
     reached: bool
     reason: str
     levels: tuple[tuple[int, float], ...]
+    orders: tuple[int, ...]
 
     def _facts(self):
         widths = [f"relative width {width:.2g} on {count} triangles" for count, width in self.levels[-1:]]
-        return [counted(len(self.levels), "level"), *widths, self.reason]
+        return [counted(len(self.levels), "level"), *widths, f"order {self.orders[-1]}", self.reason]
 
 
-def narrow(native, width, most_faces, solver, threads, memory_limit, progress=None, uniform=False):
+def narrow(native, width, most_faces, threads, memory_limit, progress=None):
     """Narrows the bounds of a native structure, whose forms are kept, to the relative width, and returns `Refinement`.
 
-    Each level is solved on the Delaunay triangulation of the surface's metric, then cut where the two energies are
-    farthest apart (`uniform`: everywhere). The classes of the forms are carried along as integers, so all levels have
-    the same basis.
+    Each level is solved on the Delaunay triangulation of the surface's metric, which is flat inside triangles. What its
+    bounds lose is a sum over triangles. From those at vertices where forms are not smooth, corners are cut off, in
+    layers; for the others the order is raised. The classes of the forms are carried along as integers, so that all
+    levels have the same basis.
     """
     natural = native.families().natural
     surface, classes = native.surface(), native.side_classes()
-    levels = []
-    while True:
-        stage = _stage(progress, levels)
-        solved = _native.solve_level(surface, classes, natural, solver, threads, memory_limit, stage)
-        triangles = _triangles(solved)
-        rounding = float(triangles.errors.max())
-        if solved.mollification or rounding >= OPEN:
-            reason = "triangles are too thin for bounds that are certain"
+    levels, orders, order = [(len(surface.triangles), _width(native))], [1], _first_order(_width(native), width)
+    reason = REACHED if levels[0][1] <= width else ""
+    while not reason:
+        try:
+            stage = _stage(progress, levels)
+            solved = _native.solve_level(surface, classes, natural, order, threads, memory_limit, stage)
+            rounding = float(solved.errors.max())
+            if solved.mollification or rounding >= OPEN:
+                raise SolverError("triangles are too thin for bounds that are certain")
+        except SolverError as error:  # the bounds of the levels before hold
+            reason = str(error)
             break
-        native.narrow(solved.energies.gram, solved.energies.certain, metric_error=rounding)
-        levels.append((len(triangles.corners), relative_width(*native.period_bounds(), native.period_matrix().imag)))
-        reason = _ended(levels, width)
+        _take_narrower(native, solved.energies, rounding)
+        triangles = triangles_of_level(solved)
+        levels.append((len(triangles.corners), _width(native)))
+        orders.append(order)
+        reason = _ended(levels, float(solved.gaps.sum()), width)
         if reason:
             break
-        everywhere = np.ones(len(triangles.corners), dtype=bool)
-        part = np.clip((1 - width / levels[-1][1]) / QUARTERED, *PART)  # the last level is hardly finer than asked for
-        pieces = refined(triangles, everywhere if uniform else worst(gaps(triangles, solved.functions, natural), part))
-        if len(pieces.corners) > most_faces:
-            reason = f"the next level would have {len(pieces.corners)} triangles, more than {most_faces}"
-            break
-        surface, classes = _surface(pieces)
-    return Refinement(bool(levels) and levels[-1][1] <= width, reason, tuple(levels))
+        # Gaps add up to the trace of what the width is the largest eigenvalue of.
+        goal = ENOUGH * width * float(solved.gaps.sum()) / levels[-1][1]
+        order, layers, worst_triangles = _next(triangles, solved.gaps, order, goal)
+        if worst_triangles.any():
+            triangles = halved(triangles, worst_triangles)
+        elif layers.any():
+            triangles = with_layers(triangles, layers)
+        if len(triangles.corners) > most_faces:
+            reason = f"the next level would have {len(triangles.corners)} triangles, more than {most_faces}"
+        else:
+            surface, classes = surface_of_triangles(triangles)
+    return Refinement(levels[-1][1] <= width, reason, tuple(levels), tuple(orders))
 
 
-def _ended(levels, width):
+def _width(native):
+    return relative_width(*native.period_bounds(), native.period_matrix().imag)
+
+
+def _first_order(found, asked):
+    return 2 + (asked < 1e-2 * found) + (asked < 1e-4 * found)
+
+
+def _take_narrower(native, energies, rounding):
+    """Gives the structure these energies, unless its own ones bound it better."""
+    before = _width(native), native.gram_matrices(), native.certain_gram_matrices(), native.metric_error()
+    native.narrow(energies.gram, energies.certain, metric_error=rounding)
+    if not _width(native) <= before[0]:
+        native.narrow(list(before[1]), list(before[2]), metric_error=before[3])
+
+
+def _ended(levels, lost, width):
     """Why the refinement ends at the last level; "" where it goes on."""
     if levels[-1][1] <= width:
-        return "the bounds are as narrow as asked for"
-    if len(levels) > 1 and levels[-1][1] > (1 - LEAST_GAIN) * levels[-2][1]:
+        return REACHED
+    if lost < ROUNDING * levels[-1][1]:
         return "rounding keeps the bounds from getting narrower"
     return f"{MOST_LEVELS} levels were solved" if len(levels) == MOST_LEVELS else ""
 
 
-def _triangles(solved):
+def _next(triangles, gaps, order, goal):
+    """(order, layers at each vertex, triangles to halve) of the cheapest level whose gaps should be as small as `goal`:
+    an order that is enough where forms are smooth, layers that are where they are not."""
+    exponents = vertex_exponents(triangles)
+    roughness = np.abs(exponents - np.round(exponents))
+    roughness[roughness <= SMOOTH] = 0
+    # The energy of what is not smooth in r^(1 + d) is about d^2.
+    shares = roughness[triangles.corners] ** 2
+    total = shares.sum(axis=1)
+    smooth = float(gaps[total == 0].sum())
+    shares *= (gaps / np.where(total > 0, total, 1))[:, None]
+    at_vertices = np.bincount(triangles.corners.ravel(), shares.ravel(), minlength=len(exponents))
+    degrees = np.bincount(triangles.corners.ravel(), minlength=len(exponents))
+    best = np.inf
+    for p in range(order, MOST_ORDER + 1):
+        # Where a form is like r^a, polynomials of degree p miss its energy by p^(-4 a).
+        layers = _layers(at_vertices * (order / p) ** (4 * exponents), exponents, goal / 2)
+        cost = (len(gaps) + 2 * (layers + 2 * (layers > 0)) @ degrees) * p**3
+        is_enough = smooth * FALL ** (p - order) <= goal / 2
+        if (is_enough or p == MOST_ORDER) and cost < best:
+            best, chosen = cost, (p, layers)
+    if chosen[0] == order and not chosen[1].any():
+        if order < MOST_ORDER:
+            return order + 1, chosen[1], np.zeros(len(gaps), bool)
+        return order, chosen[1], worst(gaps, HALVED)
+    return *chosen, np.zeros(len(gaps), bool)
+
+
+def _layers(losses, exponents, goal):
+    """How often the corners at vertices are to be cut off, so that their losses add up to `goal`: those of r^a in a
+    triangle that is `CUT` as large are CUT^(2 a) as large."""
+    ascending = np.sort(losses)
+    after = np.arange(len(losses), 0, -1) * ascending  # what is left if none is more than this one
+    total = np.concatenate([[0], np.cumsum(ascending)[:-1]]) + after
+    first = int(np.searchsorted(total, goal))
+    if first == len(losses):
+        return np.zeros(len(losses), int)
+    most = (goal - np.concatenate([[0], np.cumsum(ascending)])[first]) / (len(losses) - first)
+    with np.errstate(divide="ignore"):
+        wanted = np.log(np.maximum(losses / most, 1)) / (2 * exponents * np.log(1 / CUT))
+    return np.ceil(wanted).astype(int)
+
+
+def vertex_exponents(triangles):
+    """(#V,) the least a > 0 with a form like d r^a at the vertex: 2 pi over the angle around it, on the boundary pi."""
+    corners = triangles.corners
+    angles = np.bincount(corners.ravel(), corner_angles(triangles.sides).ravel())
+    is_boundary = np.bincount(triangles.edges.ravel())[triangles.edges] == 1
+    half = np.zeros(len(angles), bool)
+    half[corners[is_boundary]] = True
+    return np.where(half, np.pi, 2 * np.pi) / angles
+
+
+def triangles_of_level(solved):
     """`Triangles` of a native level."""
     classes = solved.classes.reshape(len(solved.triangles), 3, -1)
     return Triangles(solved.triangles, solved.triangle_edges, solved.lengths, solved.errors, classes)
 
 
-def _surface(pieces):
-    """The native surface of some `Pieces`, and the classes on its sides. Entry i of names and lengths lies opposite
-    corner i there."""
+def surface_of_triangles(triangles):
+    """The native surface, and the classes on its sides. Entry i of names and lengths lies opposite corner i there."""
     opposite = [1, 2, 0]
-    corners = pieces.corners.astype(np.int64)
-    surface = _native.refined_surface(
-        int(corners.max()) + 1, corners, pieces.sides[:, opposite], pieces.names[:, opposite], pieces.errors
-    )
-    return surface, np.ascontiguousarray(pieces.classes.reshape(len(corners), -1), np.int32)
+    corners = triangles.corners.astype(np.int64)
+    names = triangles.edges[:, opposite].astype(np.int64)
+    sides = triangles.sides[:, opposite]
+    surface = _native.refined_surface(int(corners.max()) + 1, corners, sides, names, triangles.errors)
+    return surface, np.ascontiguousarray(triangles.classes.reshape(len(corners), -1), np.int32)
 
 
 def _stage(progress, levels):

@@ -82,7 +82,7 @@ def conformal_structure(
     options = solver, count, limit, progress
     native = _native_structure(component, boundary, check_thresholds(thresholds, solver), *options)
     kind = BoundedStructure if component.boundary_count else ConformalStructure
-    more = {} if narrowing is None else {"refinement": _narrowed(native, narrowing, *options)}
+    more = {} if narrowing is None else {"refinement": _narrowed(native, narrowing, count, limit, progress)}
     again = {"boundary": boundary, "solver": solver, "thresholds": thresholds}
     again |= {"threads": threads, "memory_limit": memory_limit}
     made = result(kind, surface, component, native, count, **more)
@@ -105,8 +105,8 @@ def _native_structure(component, boundary, thresholds, solver, threads, memory_l
     return _native.conformal_structure(component._native, is_double, solver, threads, memory_limit, progress)
 
 
-def _narrowed(native, narrowing, solver, threads, memory_limit, progress):
+def _narrowed(native, narrowing, threads, memory_limit, progress):
     """The `Refinement`; the bounds of `native` become narrower."""
     if not native.memory().keeps_forms:
         raise SolverError("narrowing the bounds needs all forms in memory; these were solved for in blocks")
-    return narrow(native, *narrowing, "auto" if solver == "paper" else solver, threads, memory_limit, progress)
+    return narrow(native, *narrowing, threads, memory_limit, progress)

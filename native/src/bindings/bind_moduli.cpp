@@ -6,6 +6,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
+#include "elements/reference_element.h"
 #include "mesh/intrinsic_surface.h"
 #include "moduli/continuation.h"
 #include "moduli/equivalence.h"
@@ -213,13 +214,12 @@ std::shared_ptr<mesh::Surface> refined_surface(int vertex_count, const Contiguou
   return surface;
 }
 
-structure::NestedLevel solve_level(const mesh::Surface& surface, const Contiguous<int>& classes, int natural,
-                                   const std::string& solver, int threads, std::int64_t memory_limit,
-                                   const py::object& progress) {
+structure::NestedLevel solve_level(const mesh::Surface& surface, const Contiguous<int>& classes, int natural, int order,
+                                   int threads, std::int64_t memory_limit, const py::object& progress) {
   Execution execution(threads, callback(progress));
   const Eigen::Map<const SideClasses> given(classes.data(), classes.shape(0), classes.shape(1));
   const py::gil_scoped_release unlocked;
-  return structure::solve_level(surface, given, natural, {solver, memory_limit}, execution);
+  return structure::solve_level(surface, given, natural, order, {"direct", memory_limit}, execution);
 }
 
 // Energies of forms with these functions, on the Delaunay triangulation of the surface.
@@ -228,6 +228,13 @@ structure::CertainGram measure(const mesh::Surface& surface, const Contiguous<in
   const Eigen::Map<const SideClasses> given(classes.data(), classes.shape(0), classes.shape(1));
   Execution execution;
   return structure::measure(surface, given, natural, functions, execution);
+}
+
+structure::CertainGram measure_level(const mesh::Surface& surface, const Contiguous<int>& classes, int natural,
+                                     int order, const forms::RowMajorMatrix& functions) {
+  const Eigen::Map<const SideClasses> given(classes.data(), classes.shape(0), classes.shape(1));
+  Execution execution;
+  return structure::measure_level(surface, given, natural, order, functions, execution);
 }
 
 void bind_nested_level(py::module_& m) {
@@ -247,12 +254,22 @@ void bind_nested_level(py::module_& m) {
       .def_property_readonly("classes", [](const NestedLevel& level) { return copy(level.classes); })
       .def_property_readonly("functions", [](const NestedLevel& level) { return copy(level.functions); })
       .def_readonly("energies", &NestedLevel::energies)
+      .def_property_readonly("gaps", viewed(&NestedLevel::gaps))
       .def_readonly("mollification", &NestedLevel::mollification);
   m.def("refined_surface", &refined_surface, py::arg("vertex_count"), py::arg("faces"), py::arg("lengths"),
         py::arg("face_edges"), py::arg("errors"));
-  m.def("solve_level", &solve_level, py::arg("surface"), py::arg("classes"), py::arg("natural"), py::arg("solver"),
+  m.def("solve_level", &solve_level, py::arg("surface"), py::arg("classes"), py::arg("natural"), py::arg("order"),
         py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));
   m.def("measure", &measure, py::arg("surface"), py::arg("classes"), py::arg("natural"), py::arg("functions"));
+  m.def("measure_level", &measure_level, py::arg("surface"), py::arg("classes"), py::arg("natural"), py::arg("order"),
+        py::arg("functions"));
+  m.def(
+      "reference_element",
+      [](int order) {
+        const auto& [p, stiffness, wedge] = elements::reference_element(order);
+        return py::make_tuple(copy(stiffness[0]), copy(stiffness[1]), copy(stiffness[2]), copy(wedge));
+      },
+      py::arg("order"));
 }
 
 }  // namespace

@@ -22,15 +22,16 @@ inline constexpr int kBatch = 16;
 
 /// Runs `work(slot, begin, end)` on all blocks, batch by batch, and after each batch `collect(slot)` in the order of
 /// its blocks; slots are 0 .. kBatch - 1. @param from,to of the progress function
-template <class Work, class Collect>
+/// @tparam size elements per block
+template <int size = kBlock, class Work, class Collect>
 void for_blocks(std::size_t elements, Execution& execution, double from, double to, Work work, Collect collect) {
   Workers& workers = execution.workers();
-  const int blocks = static_cast<int>((elements + kBlock - 1) / kBlock);
+  const int blocks = static_cast<int>((elements + size - 1) / size);
   for (int first = 0; first < blocks; first += kBatch) {
     const int count = std::min(kBatch, blocks - first);
     run_throwing(workers, count, [&](int slot) {
-      const std::size_t begin = static_cast<std::size_t>(first + slot) * kBlock;
-      work(slot, static_cast<int>(begin), static_cast<int>(std::min(elements, begin + kBlock)));
+      const std::size_t begin = static_cast<std::size_t>(first + slot) * size;
+      work(slot, static_cast<int>(begin), static_cast<int>(std::min<std::size_t>(elements, begin + size)));
     });
     for (int slot = 0; slot < count; ++slot) collect(slot);
     execution.report(from + (to - from) * (first + count) / blocks);

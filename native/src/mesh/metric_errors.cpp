@@ -163,6 +163,20 @@ Array<double> energy_errors(const Metric& t, const Array<double>& weights, Worke
   return errors;
 }
 
+FaceWeights face_weights(const Metric& t, HalfedgeHandle h) {
+  // Forms need not be constant on the face, so that its largest error counts.
+  const double error = t.errors.empty() ? 0 : error_at(t, h).largest;
+  FaceWeights result;
+  const auto side = around(t, h);
+  for (int i = 0; i < 3; ++i) {
+    const auto [sharp, rounding] = cotangent_at(t, side[i]);
+    const double cotangent = result.cotangents[i] = sharp.value();
+    result.errors[i] =
+        error * cotangent + (1 + error) * rounding + kSlack * kUnit * (1 + 6 * error) * std::abs(cotangent);
+  }
+  return result;
+}
+
 double largest_error(const Metric& t) {
   double largest = 0;
   for (const FaceError& error : t.errors) largest = std::max(largest, error.largest);

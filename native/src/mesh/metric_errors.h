@@ -61,6 +61,14 @@ void sharpen_weights(const Metric& metric, Array<double>& weights, Workers& work
 /// sum_e (k_e + u_e) h(e)^2, the rounding of the weights included. @param weights cotangent_weights
 Array<double> energy_errors(const Metric& metric, const Array<double>& weights, Workers& workers);
 
+/// What the energies of forms on a face are made of, from one of its half-edges on: sum_i cot_i q_i, q_i the
+/// integral of the squared derivative along side i over a triangle of area 1 / 2, cot_i the cotangent opposite. On the
+/// surface as given, the energy of any form is at most sum_i (cot_i + u_i) q_i, the rounding of cot_i included.
+struct FaceWeights {
+  std::array<double, 3> cotangents, errors;
+};
+FaceWeights face_weights(const Metric& metric, HalfedgeHandle h);
+
 /// The largest error of any face: with 1, energies are not bounded.
 double largest_error(const Metric& metric);
 

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "forms/gram_matrices.h"
 #include "linear/dense.h"
 
 namespace holomorph::structure {
@@ -55,16 +54,20 @@ CertainGram certain_gram(std::vector<MatrixXd> gram, const std::vector<MatrixXd>
   return {std::move(gram), std::move(certain)};
 }
 
+CertainGram certain_energies(const std::vector<forms::GramMatrix>& measured) {
+  std::vector<MatrixXd> gram, errors;
+  for (const forms::GramMatrix& one : measured) {
+    gram.push_back(one.value);
+    // Without errors of the weights none are wanted.
+    if (one.cut_size.size() > 0) errors.push_back(forms::gram_errors(one));
+  }
+  return certain_gram(std::move(gram), errors);
+}
+
 CertainGram certain_energies(const mesh::Discretisation& discretisation, const forms::ClosedForms& forms,
                              const std::vector<int>& families, Execution& execution) {
-  const auto& errors = discretisation.errors;
-  std::vector<MatrixXd> gram, uncertain;
-  for (const auto& measured :
-       forms::gram_matrices(discretisation.half_edges, discretisation.weights, errors, forms, families, execution)) {
-    gram.push_back(measured.value);
-    if (!errors.empty()) uncertain.push_back(forms::gram_errors(measured));
-  }
-  return certain_gram(std::move(gram), uncertain);
+  const auto& [half_edges, lengths, weights, errors, metric_error, mollification, flips] = discretisation;
+  return certain_energies(forms::gram_matrices(half_edges, weights, errors, forms, families, execution));
 }
 
 void require_ordered(const MatrixXd& lower, const MatrixXd& upper, double allowed) {

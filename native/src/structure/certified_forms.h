@@ -10,6 +10,7 @@
 #include "conformal/holomorphic_basis.h"
 #include "forms/certificates.h"
 #include "forms/closed_forms.h"
+#include "forms/gram_matrices.h"
 #include "mesh/delaunay.h"
 #include "structure/topology.h"
 #include "uv/balance.h"
@@ -40,6 +41,9 @@ struct CertainGram {
 /// @param errors E for each of `gram`, or none where they are negligible
 /// @throws SolverError where E is more than kMostUncertain of G
 CertainGram certain_gram(std::vector<Eigen::MatrixXd> gram, const std::vector<Eigen::MatrixXd>& errors);
+
+/// The same of measured Gram matrices, one for each family.
+CertainGram certain_energies(const std::vector<forms::GramMatrix>& measured);
 
 /// Measures the energies of forms on a discretisation. @param families numbers of forms
 /// @throws SolverError where rounding leaves no digit

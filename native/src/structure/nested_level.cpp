@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include "elements/element_forms.h"
 #include "mesh/components.h"
 #include "mesh/delaunay.h"
+#include "structure/memory_plan.h"
 #include "structure/structure.h"
 #include "topology/integer_forms.h"
 
@@ -55,10 +57,25 @@ void write_triangulation(const mesh::HalfEdges& half_edges, const IntegerForms& 
   }
 }
 
+mesh::IntrinsicTriangulation delaunay(const mesh::Surface& surface, Execution& execution) {
+  auto triangulation = mesh::given_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
+  mesh::make_delaunay(triangulation, execution);
+  return triangulation;
+}
+
+std::vector<mesh::FaceWeights> face_weights(const mesh::IntrinsicTriangulation& triangulation) {
+  std::vector<mesh::FaceWeights> weights;
+  for (int t = 0; t < static_cast<int>(triangulation.half_edges.n_faces()); ++t) {
+    weights.push_back(
+        mesh::face_weights(triangulation.metric(), triangulation.half_edges.halfedge_handle(mesh::FaceHandle(t))));
+  }
+  return weights;
+}
+
 IntegerForms classes_on_delaunay(const mesh::Surface& surface, const SideClasses& sides,
-                                 const mesh::Discretisation& delaunay) {
+                                 const std::vector<mesh::Flip>& flips) {
   auto classes = edge_classes(surface, sides, static_cast<int>(sides.cols() / 3));
-  topology::pull_back(delaunay.flips, classes);
+  topology::pull_back(flips, classes);
   return classes;
 }
 
@@ -88,40 +105,46 @@ SideClasses side_classes(const Structure& s) {
   return sides;
 }
 
-NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, int natural, const Options& options,
-                        Execution& execution) {
+NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, int natural, int order,
+                        const Options& options, Execution& execution) {
   NestedLevel level;
-  execution.stage("refined triangulation", 0.0, 0.3);
-  auto triangulation = mesh::given_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
-  // Refinement cuts Delaunay triangles, whose children are not all Delaunay. Flips only lower the energies, so that the
-  // bounds stay nested.
-  mesh::make_delaunay(triangulation, execution);
+  execution.stage("refined triangulation", 0.0, 0.2);
+  const auto triangulation = delaunay(surface, execution);
+  level.mollification = triangulation.mollification;
   // 1 stands for unknown: there are no errors if a triangle was mollified.
   level.errors.assign(surface.triangles.size(), 1);
-  for (std::size_t t = 0; t < triangulation.metric_errors.size(); ++t)
-    level.errors[t] = triangulation.metric_errors[t].largest;
-  const auto delaunay = mesh::discretised(std::move(triangulation), execution);
-  level.lengths.assign(delaunay.lengths.begin(), delaunay.lengths.end());
-  level.mollification = delaunay.mollification;
-  const auto classes = classes_on_delaunay(surface, sides, delaunay);
-  write_triangulation(delaunay.half_edges, classes, level);
+  if (triangulation.metric_errors.empty()) return level;
+  for (std::size_t t = 0; t < level.errors.size(); ++t) level.errors[t] = triangulation.metric_errors[t].largest;
+  level.lengths.assign(triangulation.lengths.begin(), triangulation.lengths.end());
+  const auto classes = classes_on_delaunay(surface, sides, triangulation.flips);
+  write_triangulation(triangulation.half_edges, classes, level);
 
-  execution.stage("refined forms", 0.3, 0.9);
+  const elements::ElementForms forms(triangulation.half_edges, face_weights(triangulation), classes, natural, order);
+  plan_memory({forms.unknowns(), order * static_cast<std::int64_t>(surface.triangles.size()), classes.form_count},
+              {"direct", options.memory_limit}, Keeping::all);
+  execution.stage("refined forms", 0.2, 0.8);
+  level.functions = forms.solve(execution);
+  execution.stage("refined bounds", 0.8, 1.0);
   execution.part(0, 0.5);
-  HarmonicSolver solver(delaunay, classes.form_count, options, execution);
+  level.energies = certain_energies(forms.gram_matrices(level.functions, execution));
   execution.part(0.5, 1);
-  level.functions = solver.solve(classes, natural, execution);
-
-  execution.stage("refined bounds", 0.9, 1.0);
-  level.energies = energies(delaunay, classes, natural, level.functions, execution);
+  level.gaps = forms.gaps(level.functions, level.energies.gram, execution);
   execution.finish();
   return level;
+}
+
+CertainGram measure_level(const mesh::Surface& surface, const SideClasses& sides, int natural, int order,
+                          const forms::RowMajorMatrix& functions, Execution& execution) {
+  const auto triangulation = delaunay(surface, execution);
+  const auto classes = classes_on_delaunay(surface, sides, triangulation.flips);
+  const elements::ElementForms forms(triangulation.half_edges, face_weights(triangulation), classes, natural, order);
+  return certain_energies(forms.gram_matrices(functions, execution));
 }
 
 CertainGram measure(const mesh::Surface& surface, const SideClasses& sides, int natural,
                     const forms::RowMajorMatrix& functions, Execution& execution) {
   const auto delaunay = mesh::on_delaunay(surface, mesh::half_edges(surface, execution), execution);
-  return energies(delaunay, classes_on_delaunay(surface, sides, delaunay), natural, functions, execution);
+  return energies(delaunay, classes_on_delaunay(surface, sides, delaunay.flips), natural, functions, execution);
 }
 
 Structure narrowed(Structure structure, CertainGram energies, double metric) {

@@ -1,5 +1,5 @@
-// One level of a nested refinement: the harmonic forms of given integer classes on a triangulation of a surface. Keeps
-// the Delaunay triangulation that they were solved on, to be refined further.
+// One level of a refinement: the harmonic forms of given integer classes on a triangulation of a surface, by elements
+// of some order. Keeps the Delaunay triangulation that they were solved on, to be refined further.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,26 +24,30 @@ struct NestedLevel {
   std::vector<mesh::Triple> triangles;       ///< #T corners in the Delaunay triangulation
   std::vector<mesh::Triple> triangle_edges;  ///< #T edges; side i begins at corner i
   std::vector<double> lengths;               ///< #E
-  std::vector<double> errors;                ///< #T mesh::FaceError::largest
+  std::vector<double> errors;                ///< #T mesh::FaceError::largest; 1 where the metric is another one
   SideClasses classes;                       ///< on that triangulation
-  forms::RowMajorMatrix functions;           ///< #V x m
+  forms::RowMajorMatrix functions;           ///< see elements::ElementForms::solve
   CertainGram energies;
-  double mollification = 0;  ///< other than 0: bounds belong to another surface
+  std::vector<double> gaps;  ///< #T, see elements::ElementForms::gaps
+  double mollification = 0;  ///< other than 0: bounds would belong to another surface, and nothing is solved
 };
 
-/// Solves for the forms of these classes. On a triangulation that refines the Delaunay triangulation of a coarser
-/// level, energies are no larger than there. The coarser functions are among those to choose from, and flips towards
-/// Delaunay lower the energy of any (Rippa 1990, doi:10.1016/0167-8396(90)90011-F). So bounds are nested.
+/// Solves for the forms of these classes by elements of order p.
 /// @param natural how many of the classes are natural; the others are Dirichlet
+/// @param options the limit of memory; the system is factorised in any case
 /// @throws SolverError, Cancelled
-NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& classes, int natural, const Options& options,
-                        Execution& execution);
+NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& classes, int natural, int order,
+                        const Options& options, Execution& execution);
 
 /// Measures the forms eta_i + d f_i with any functions on the Delaunay triangulation of the surface: admissible ones,
 /// whatever they are, so that bounds hold.
 /// @param functions #V x m; those of Dirichlet forms count as 0 on the boundary
 CertainGram measure(const mesh::Surface& surface, const SideClasses& classes, int natural,
                     const forms::RowMajorMatrix& functions, Execution& execution);
+
+/// The same by elements of order p. @param functions see elements::ElementForms::solve
+CertainGram measure_level(const mesh::Surface& surface, const SideClasses& classes, int natural, int order,
+                          const forms::RowMajorMatrix& functions, Execution& execution);
 
 /// Replaces the Gram matrices of a structure by those of the same forms on a finer level, and all that follows from
 /// them.

@@ -14,6 +14,7 @@ from holomorph.forms.certificate import certain_text, entry_bounds
 from small_families import SMALL
 from solved import surface_of
 
+ORDERS = (1, 2, 5, 10)  # of elements
 TIGHT = 1e-11  # relative width where the forms are represented exactly: rounding alone
 ORIGAMIS = flat_cones.origamis()
 
@@ -78,11 +79,15 @@ def test_the_area_of_a_square_tiled_surface(name, is_jittered):
     structure = conformal_structure(surface_of(flat))
     native, W = structure._native, structure._native.pairing()
     c = periods(structure, flat, dz)
-    for x in (c.real, c.imag):
-        lower = energy(native.inverse_gram_bounds()[0], W.T @ x)
-        upper = energy(native.certain_gram_matrices()[0], x)
-        assert lower <= len(right) <= upper
-        assert upper - lower < TIGHT * len(right)
+    for order in (None, *ORDERS):
+        if order is not None:
+            level = _native.solve_level(native.surface(), native.side_classes(), len(W), order, 1, 0, None)
+            native.narrow(level.energies.gram, level.energies.certain, metric_error=level.errors.max())
+        for x in (c.real, c.imag):
+            lower = energy(native.inverse_gram_bounds()[0], W.T @ x)
+            upper = energy(native.certain_gram_matrices()[0], x)
+            assert lower <= len(right) <= upper
+            assert upper - lower < (1 if order is None else 5) * TIGHT * len(right)
     assert structure.certificate.holds
     a = (structure.canonical_basis @ c)[: flat.genus]  # dz = sum_j a_j theta_j
     lower, upper = (energy(b, a.real) + energy(b, a.imag) for b in structure.certificate.imaginary_bounds)
@@ -117,14 +122,17 @@ def test_200_bits(name):
 
 
 @pytest.mark.parametrize("noise", [1e-12, 1e-6, 1e-3, 1.0])
-def test_any_functions_give_bounds(noise):
+@pytest.mark.parametrize("order", [1, 2, 4])
+def test_any_functions_give_bounds(order, noise):
     """An unfinished solution: its energies are above the least ones, in every direction."""
     mesh = families.block_with_holes(2, refine=2, jitter=0.2)
     structure = conformal_structure(surface_of(mesh))
     native, classes = structure._native, structure._native.side_classes()
-    level = _native.solve_level(native.surface(), classes, 4, "direct", 1, 0, None)
+    level = _native.solve_level(native.surface(), classes, 4, order, 1, 0, None)
     moved = level.functions + noise * np.random.default_rng(1).standard_normal(level.functions.shape)
-    above, (gram,) = _native.measure(native.surface(), classes, 4, moved).certain, level.energies.gram
+    above, (gram,) = _native.measure_level(native.surface(), classes, 4, order, moved).certain, level.energies.gram
+    if order == 1:
+        assert least_eigenvalue(_native.measure(native.surface(), classes, 4, moved).certain[0] - gram) > 0
     assert least_eigenvalue(above[0] - gram) > 0
     assert least_eigenvalue(level.energies.certain[0] - gram) > 0
 

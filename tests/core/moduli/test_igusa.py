@@ -103,8 +103,8 @@ def test_they_are_narrowed_to_a_wished_width():
 
 def test_what_keeps_them_wide_is_told():
     structure = conformal_structure(surface_of(flat_cones.regular_polygon(8)))
-    found = igusa_invariants(structure, width=1e-6, most_faces=500)
-    assert not found.refinement.reached and "more than 500" in found.refinement.reason
+    found = igusa_invariants(structure, width=1e-6, most_faces=200)
+    assert not found.refinement.reached and "more than 200" in found.refinement.reason
     with pytest.raises(ValueError, match="width is -1"):
         igusa_invariants(structure, width=-1)
 

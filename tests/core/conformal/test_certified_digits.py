@@ -1,0 +1,79 @@
+"""Certified digits: periods of surfaces whose curves are known, to eight of them, and what is decided by them."""
+
+import dessins
+import flat_cones
+import numpy as np
+import pytest
+import sextics
+from holomorph import (
+    conformal_structure,
+    conformally_equivalent,
+    curve_period_matrix,
+    hyperelliptic,
+    igusa_invariants,
+)
+from solved import surface_of
+
+EIGHT = 1e-8
+POLYGONS = {8: [1, 0, 0, 0, -1, 0], 10: [1, 0, 0, 0, 0, -1], 14: [1, 0, 0, 0, 0, 0, 0, -1]}
+
+
+def solved(flat, bounds):
+    structure = conformal_structure(surface_of(flat), bounds=bounds)
+    assert structure.refinement.reached and structure.certificate.holds
+    assert structure.certificate.relative_width <= bounds
+    return structure
+
+
+def check(structure, curve):
+    """The exact periods are within the bounds, and the projected ones far nearer than the bounds say."""
+    found = conformally_equivalent(structure, curve_period_matrix(curve))
+    assert found.verdict in {"indistinguishable", "mirror_image"}
+    assert found.residual < structure.certificate.relative_width / 10
+    assert found.tolerance < 2 * structure.certificate.relative_width
+
+
+@pytest.mark.parametrize("N", dessins.ELLIPTIC)
+def test_modular_curves_of_genus_1(N):
+    """They are glued of 24 to 96 flat triangles."""
+    check(solved(dessins.modular_curve(N), EIGHT), dessins.curve(N))
+
+
+@pytest.mark.parametrize("N", dessins.HYPERELLIPTIC)
+def test_modular_curves_of_genus_2_and_3(N):
+    check(solved(dessins.modular_curve(N), 1e-6), dessins.curve(N))
+
+
+@pytest.mark.parametrize("sides", POLYGONS)
+def test_regular_polygons(sides):
+    """Eight triangles, whose linear functions leave the octagon wider than its periods are."""
+    structure = solved(flat_cones.regular_polygon(sides), EIGHT)
+    assert structure.refinement.levels[0][1] > 1
+    check(structure, POLYGONS[sides])
+
+
+@pytest.mark.parametrize("shape", [(1.0, 1.2, 0.9), (0.4, 1.0, 1.7)], ids=str)
+def test_triangles_of_any_shape_glue_to_the_same_surface(shape):
+    angles = (*shape[:2], np.pi - shape[0] - shape[1])
+    check(solved(dessins.modular_curve(11, angles), EIGHT), dessins.curve(11))
+
+
+@pytest.mark.parametrize("N", [34, 43])
+def test_curves_of_genus_3_that_are_not_hyperelliptic(N):
+    assert hyperelliptic(solved(dessins.modular_curve(N), 1e-4)).verdict == "no"
+
+
+@pytest.mark.parametrize("N", [23, 37])
+def test_six_digits_of_igusa_invariants(N):
+    structure = solved(dessins.modular_curve(N), EIGHT)
+    found, exact = igusa_invariants(structure), np.array([float(x) for x in sextics.absolute(dessins.curve(N))])
+    assert (np.abs(found.values - exact) <= found.errors).all()
+    assert (found.errors < 1e-6 * np.abs(exact)).all()
+    assert hyperelliptic(structure).verdict == "yes"
+
+
+@pytest.mark.parametrize("change", [1e-3, 1e-6])
+def test_near_curves_are_told_apart(change):
+    structure = solved(flat_cones.regular_polygon(10), change / 10)
+    near = conformally_equivalent(structure, curve_period_matrix([1, 0, 0, 0, change, -1]))
+    assert near.verdict == "not_equivalent" and near.is_proven
