@@ -46,26 +46,32 @@ def double_cover(surface: Surface) -> Surface:
     """
     check_type(surface, Surface)
     native = surface._native
-    triangles, sides = native.triangles.astype(np.int64), native.triangle_edges.astype(np.int64)
-    edges, lengths = native.edges, native.edge_lengths
-    on_boundary = np.bincount(sides.ravel(), minlength=len(edges)) == 1
+    on_boundary = np.bincount(native.triangle_edges.ravel(), minlength=len(native.edges)) == 1
     if not on_boundary.any():
         raise TopologyError("the surface has no boundary along which two copies of it could be glued")
-    shared = np.zeros(native.vertex_count, dtype=bool)
-    shared[edges[on_boundary]] = True
-    shared[native.isolated_vertices] = True  # vertices of no triangle have no second copy
-    dual_vertex, dual_edge = _second_copy(shared), _second_copy(on_boundary)
-    faces = np.concatenate([triangles, dual_vertex[triangles][:, [0, 2, 1]]])
-    opposite = np.concatenate([sides[:, [1, 2, 0]], dual_edge[sides][:, [1, 0, 2]]])  # corner i lies opposite entry i
-    all_lengths = np.empty(max(len(edges), dual_edge.max() + 1))
-    all_lengths[: len(edges)] = lengths
-    all_lengths[dual_edge] = lengths
-    double = Surface.from_edge_lengths(faces, all_lengths[opposite], opposite)
+    faces, lengths, names, dual_vertex = glued_copies(native, on_boundary)
+    double = Surface.from_edge_lengths(faces, lengths, names)
     both = np.arange(double._native.vertex_count)
     both[: len(dual_vertex)] = dual_vertex
     both[dual_vertex] = np.arange(len(dual_vertex))
     double.dual_vertex = arrays.frozen(both)
     return double
+
+
+def glued_copies(native, is_glued):
+    """Two copies of a native surface, the second one turned over, glued along some boundary edges: (2 #T, 3) faces,
+    lengths and names of edges opposite corners, and the vertex of the second copy over each."""
+    triangles, sides = native.triangles.astype(np.int64), native.triangle_edges.astype(np.int64)
+    shared = np.zeros(native.vertex_count, dtype=bool)
+    shared[native.edges[is_glued]] = True
+    shared[native.isolated_vertices] = True  # vertices of no triangle have no second copy
+    dual_vertex, dual_edge = _second_copy(shared), _second_copy(is_glued)
+    faces = np.concatenate([triangles, dual_vertex[triangles][:, [0, 2, 1]]])
+    opposite = np.concatenate([sides[:, [1, 2, 0]], dual_edge[sides][:, [1, 0, 2]]])  # corner i lies opposite entry i
+    lengths = np.empty(max(len(is_glued), dual_edge.max() + 1))
+    lengths[: len(is_glued)] = native.edge_lengths
+    lengths[dual_edge] = native.edge_lengths
+    return faces, lengths[opposite], opposite, dual_vertex
 
 
 def symmetrised(double: Surface, forms: ArrayLike) -> Reals:

@@ -11,9 +11,11 @@ from .. import _native
 from .._native import TopologyError
 from ..core.array_types import Integers, Progress
 from ..forms.log_map import log_map
+from ..forms.narrow_bounds import narrow
 from ..forms.pole_structure import PoleStructure
 from ..forms.results import result
-from ..mesh.checks import check_options, only_component, own_vertices
+from ..mesh.checks import check_bounds, check_options, only_component, own_vertices
+from ..mesh.double import glued_copies
 from ..mesh.surface import Surface
 from .plane_maps import DiskMap, FreeBoundaryMap, PlaneMap, RectangleMap, TriangleMap
 
@@ -60,6 +62,8 @@ def rectangle_map(
     *,
     solver: str = "auto",
     threads: int | None = None,
+    bounds: float | None = None,
+    most_faces: int = 2_000_000,
     progress: Progress | None = None,
 ) -> RectangleMap:
     """The `RectangleMap` of a disk with four corners on its boundary.
@@ -67,7 +71,8 @@ def rectangle_map(
     corners : list of four boundary vertices in the order of the boundary, the surface on its left. Default: the clear
         corners of the boundary, where it turns by more than 45 degrees at exactly four places and back at none
         (plane/clear_corners.h); else the quarters of its length
-    solver, threads, progress : as in `conformal_structure`
+    bounds : relative width that the bounds of the modulus are to have, such as 1e-8; the result's `refinement` tells
+    solver, threads, most_faces, progress : as in `conformal_structure`
 
     Raises TopologyError for other surfaces, for corners that do not fit, and for a boundary of three edges;
     SolverError; Cancelled.
@@ -80,6 +85,7 @@ def rectangle_map(
     0.5
     """
     count, component = check_options(solver, threads), _disk(surface, "a rectangle")
+    narrowing = check_bounds(bounds, most_faces)
     if corners is None:
         own = _native.clear_corners(component._native)
         vertices, labels = (_native.quarter_corners(component._native) if own is None else own), []
@@ -87,8 +93,28 @@ def rectangle_map(
         vertices, labels = own_vertices(surface, component, corners, "rectangle corner")
     native = _native.rectangle_map(component._native, vertices, labels, solver, count, progress)
     given = None if corners is None else np.array(corners).tolist()  # the caller's list may change
-    made = result(RectangleMap, surface, component, native, count)
-    return made.computed_by(partial(rectangle_map, surface, given, solver=solver, threads=threads))
+    more = {} if narrowing is None else _narrowed(component._native, native, narrowing, count, progress)
+    made = result(RectangleMap, surface, component, native, count, **more)
+    again = {"solver": solver, "threads": threads, "bounds": bounds, "most_faces": most_faces}
+    return made.computed_by(partial(rectangle_map, surface, given, **again))
+
+
+def _narrowed(surface, rectangle, narrowing, threads, progress):
+    """The `Refinement` of a native rectangle map, and narrower bounds of its modulus. Two copies glued along the sides
+    0 and 2 are an annulus, whose circumference is twice the height: its modulus is that of 1 / (2 modulus)."""
+    height = rectangle.points().ravel().imag
+    start, end = height[surface.edges].T
+    on_boundary = np.bincount(surface.triangle_edges.ravel(), minlength=len(start)) == 1
+    # The sides 0 and 2 are straight, exactly.
+    is_glued = on_boundary & (start == end) & np.isin(start, (0, rectangle.modulus))
+    faces, lengths, names, _ = glued_copies(surface, is_glued)
+    errors = np.tile(_native.length_errors(surface), 2)
+    annulus = _native.refined_surface(int(faces.max()) + 1, faces, lengths, names, errors)
+    native = _native.conformal_structure(annulus, False, "auto", threads, 0, progress)
+    refinement = narrow(native, *narrowing, threads, 0, progress)
+    low, high = native.inverse_gram_bounds()[1][0, 0], native.certain_gram_matrices()[0][0, 0]
+    narrow_bounds = float(np.nextafter(0.5 / high, 0)), float(np.nextafter(0.5 / low, np.inf))
+    return {"refinement": refinement, "narrow_bounds": narrow_bounds}
 
 
 def free_boundary_map(

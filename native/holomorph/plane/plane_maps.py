@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from ..core import arrays
 from ..core.array_types import Complexes, Integers, Progress, Reals
 from ..core.value import plain
+from ..forms.narrow_bounds import Refinement
 from ..forms.results import Structure
 from ..forms.solver_report import SolverReport
 from ..mesh.checks import checked_coefficients
@@ -92,9 +93,14 @@ class RectangleMap(PlaneMap):
     """Result of `rectangle_map`: the conformal map of a disk with four corners on its boundary to a rectangle.
 
     UVs have the width 1 and the height `modulus`, corner 0 at the origin, corner 1 at (1, 0); each of the four sides is
-    straight, exactly."""
+    straight, exactly.
+
+    refinement : `Refinement` where narrower bounds were asked for, else None
+    """
 
     map_kind = "rectangle"
+    refinement: Refinement | None = None
+    narrow_bounds: tuple[float, float] | None = None
 
     @cached_property
     def description(self) -> str:
@@ -114,13 +120,13 @@ class RectangleMap(PlaneMap):
     @property
     def modulus(self) -> float:
         """Height over width, between `modulus_bounds`: a conformal invariant of the surface with its four corners."""
-        return self._native.modulus
+        return self._native.modulus if self.narrow_bounds is None else float(np.sqrt(np.prod(self.narrow_bounds)))
 
     @property
     def modulus_bounds(self) -> tuple[float, float] | None:
         """(lower, upper): guaranteed bounds of the modulus of the polyhedral surface. None where degenerate triangles
         had to be mollified: another surface was solved on."""
-        return (self._native.lower, self._native.upper) if self._is_exact else None
+        return (self.narrow_bounds or (self._native.lower, self._native.upper)) if self._is_exact else None
 
     @cached_property
     def collapsed_triangles(self) -> Integers:
@@ -129,7 +135,8 @@ class RectangleMap(PlaneMap):
 
     @cached_property
     def _plane(self):
-        return arrays.frozen(self._native.points().ravel())
+        points = self._native.points().ravel()
+        return arrays.frozen(points.real + 1j * (points.imag * (self.modulus / self._native.modulus)))
 
     def invariants(self) -> dict[str, Any]:
         """The corners, and the modulus with its bounds, as plain data."""

@@ -258,6 +258,9 @@ void bind_nested_level(py::module_& m) {
       .def_readonly("mollification", &NestedLevel::mollification);
   m.def("refined_surface", &refined_surface, py::arg("vertex_count"), py::arg("faces"), py::arg("lengths"),
         py::arg("face_edges"), py::arg("errors"));
+  m.def(
+      "length_errors", [](const mesh::Surface& surface) { return copy(structure::length_errors(surface)); },
+      py::arg("surface"));
   m.def("solve_level", &solve_level, py::arg("surface"), py::arg("classes"), py::arg("natural"), py::arg("order"),
         py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));
   m.def("measure", &measure, py::arg("surface"), py::arg("classes"), py::arg("natural"), py::arg("functions"));

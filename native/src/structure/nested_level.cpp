@@ -105,6 +105,14 @@ SideClasses side_classes(const Structure& s) {
   return sides;
 }
 
+std::vector<double> length_errors(const mesh::Surface& surface) {
+  Execution silent;
+  const auto given = mesh::given_triangulation(surface, mesh::half_edges(surface, silent), silent.workers());
+  std::vector<double> errors;
+  for (const mesh::FaceError& error : given.metric_errors) errors.push_back(error.largest);
+  return errors;
+}
+
 NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, int natural, int order,
                         const Options& options, Execution& execution) {
   NestedLevel level;

@@ -39,6 +39,9 @@ struct NestedLevel {
 NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& classes, int natural, int order,
                         const Options& options, Execution& execution);
 
+/// #T, by what part rounding its lengths may change energies on each triangle of a surface.
+std::vector<double> length_errors(const mesh::Surface& surface);
+
 /// Measures the forms eta_i + d f_i with any functions on the Delaunay triangulation of the surface: admissible ones,
 /// whatever they are, so that bounds hold.
 /// @param functions #V x m; those of Dirichlet forms count as 0 on the boundary

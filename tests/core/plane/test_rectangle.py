@@ -178,3 +178,67 @@ def test_refusals(case):
     with pytest.raises(TopologyError, match=message) as caught:
         rectangle_map(surface_of(mesh), corners)
     assert "\n" not in str(caught.value)
+
+
+# ---- bounds as narrow as asked for -----------------------------------------------------------------------------------
+
+EIGHT = 1e-8
+
+
+def mean(a, b):
+    """Gauss's arithmetic-geometric mean."""
+    while abs(a - b) > 1e-15 * a:
+        a, b = (a + b) / 2, np.sqrt(a * b)
+    return a
+
+
+def groetzsch_inverse(y):
+    """r with K(r') / K(r) = 2 y / pi."""
+    q, n = np.exp(-2 * y), np.arange(-60, 61)
+    return (np.sum(q ** ((n + 0.5) ** 2)) / np.sum(q ** (n**2.0))) ** 2
+
+
+def trapezoid_modulus(height):
+    """Of the corners 1 + i height, i (height - 1), 0 and 1 (Burnside 1893; Hakula, Rasila & Vuorinen 2011)."""
+    c = 2 * height - 1
+    first, second = groetzsch_inverse(np.pi / (2 * c)), groetzsch_inverse(np.pi * c / 2)
+    r = ((first - second) / (first + second)) ** 2
+    return mean(1, r) / mean(1, np.sqrt((1 - r) * (1 + r)))
+
+
+@pytest.mark.parametrize("height", [1.05, 1.1, 1.2, 1.35, 1.5, 1.75, 2, 2.5, 3, 4, 5, 6.5])
+def test_trapezoids_to_eight_digits(height):
+    """They are given as two triangles."""
+    surface = Surface([(1, height, 0), (0, height - 1, 0), (0, 0, 0), (1, 0, 0)], [(0, 1, 2, 3)])
+    found = rectangle_map(surface, [0, 1, 2, 3], bounds=EIGHT)
+    low, high = found.modulus_bounds
+    assert found.refinement.reached and high - low <= EIGHT * high
+    assert low < trapezoid_modulus(height) < high and low < found.modulus < high
+    turned = rectangle_map(surface, [1, 2, 3, 0], bounds=EIGHT).modulus_bounds
+    assert turned[0] * low < 1 < turned[1] * high
+
+
+def test_narrow_bounds_of_an_l_shape():
+    """It is its own mirror image, which exchanges the sides."""
+    corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0)]
+    surface = Surface(corners, [(0, 1, 2, 3), (0, 3, 4, 5)])
+    found = rectangle_map(surface, [0, 1, 3, 5], bounds=EIGHT)
+    low, high = found.modulus_bounds
+    assert low < 1 < high and high - low <= EIGHT
+    uv = found.uv()
+    assert uv.min() == 0 and uv[:, 0].max() == 1 and uv[:, 1].max() == pytest.approx(found.modulus, rel=1e-15)
+
+
+def test_a_challenge_of_a_hundred_digits():
+    """Brownian motion from the middle of a 10 x 1 rectangle leaves it at its ends with the probability 3.8376e-7
+    (Bornemann, Laurie, Wagon & Waldvogel 2004, problem 10), by the modulus of the rectangle, here of many triangles."""
+    x, y = np.meshgrid(np.linspace(0, 10, 21), np.linspace(0, 1, 4), indexing="ij")
+    inside = (x > 0) & (x < 10) & (y > 0) & (y < 1)
+    x, y = (z + inside * np.random.default_rng(k).uniform(-0.1, 0.1, z.shape) for k, z in enumerate((x, y)))
+    corner = np.arange(84).reshape(21, 4)[:-1, :-1].ravel()
+    faces = np.stack([corner, corner + 4, corner + 5, corner + 1], axis=1)
+    surface = Surface(np.stack([x, y, 0 * x], axis=-1).reshape(-1, 3), faces)
+    found = rectangle_map(surface, [3, 0, 80, 83], bounds=EIGHT)
+    low, high = (2 / np.pi * np.arcsin(groetzsch_inverse(np.pi / 2 * m)) for m in found.modulus_bounds)
+    assert high < 3.837587979251226e-7 < low
+    assert low - high < 1e-5 * low
