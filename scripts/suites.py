@@ -11,7 +11,7 @@ BLENDER = os.environ.get("HOLOMORPH_BLENDER") or "blender"
 # The longest ones first, so that two at a time end together.
 DEFAULT = ["lint", "native", "blender-3.4", "core", "package", "bpy-5.2", "window", "batch"]
 ALL = ["injection", "lint", "native", "blender-3.4", "core", "package", "batch", "asan", "site", "window", "fuzz"]
-ALL += ["tsan", "bpy-5.2", "bpy-5.0", "bpy-4.5", "bpy-4.2"]
+ALL += ["window-new", "tsan", "bpy-5.2", "bpy-5.0", "bpy-4.5", "bpy-4.2"]
 ON_DEMAND = ["mutate", "platforms"]  # they compile for an hour
 # The part of tests/core that runs under the sanitizers, several times slower: every kind of surface and every solver
 # once, on small meshes; tilings and what is made of them, islands, evening; malformed files; cancelling in the middle;
@@ -55,6 +55,7 @@ class Suite(NamedTuple):
     preset: str = "release"  # what scripts/build compiles for it, if anything
     blender: str = ""  # "wanted", or "needed": it is skipped without the program
     python: str = ""  # the version without which it is skipped
+    debian: str = ""  # the Debian whose Blender it takes; as root
     times: int = 1  # the minutes of a suite that it may take
 
 
@@ -101,6 +102,16 @@ def bpy(version, python):
         [pytest(name, "tests/blender", venv=name, library="")],
         environment=f"make_bpy_venv {name}",
         python=python,
+    )
+
+
+def window_in(name, debian, blender, python):
+    return Suite(
+        f"The same in Blender {blender}, of Debian {debian}, with the extension installed from its zip.",
+        [pytest(name, "tests/window", HOLOMORPH_BLENDER=ROOT / "scripts" / "debian-blender", HOLOMORPH_DEBIAN=debian)],
+        environment=f"make_test_venv; make_debian {debian}",
+        python=python,
+        debian=debian,
     )
 
 
@@ -165,6 +176,7 @@ SUITES = {
         [pytest("window", "tests/window")],
         blender="needed",
     ),
+    "window-new": window_in("window-new", "trixie", "4.3", "3.13"),
     "site": Suite(
         "scripts/site, and tests/site: its pages in Chromium, the gallery, plots by PyVista, a notebook.",
         [["scripts/site"], pytest("site", "tests/site", venv="site-test-cp311")],

@@ -195,7 +195,7 @@ def selected_vertices(mesh):
     selected = np.flatnonzero(read_values(Values(mesh.vertices, "select", bool)))
     if not mesh.is_editmode:
         return selected
-    history = bmesh.from_edit_mesh(mesh).select_history
+    history = bmesh.from_edit_mesh(mesh).select_history[:]  # a list: Python 3.13 finds no iterator of Blender 4.3's
     picked = np.array([e.index for e in history if isinstance(e, bmesh.types.BMVert)], np.int64)
     return np.concatenate([picked[np.isin(picked, selected)], selected[~np.isin(selected, picked)]])
 

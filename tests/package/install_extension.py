@@ -27,6 +27,6 @@ new = [path for path in set(folder.rglob("*")) - set(before) if "__pycache__" no
 assert not new, f"the extension writes beside itself: {new}"
 # Classes that are still registered at the end make some versions crash or hang there.
 bpy.ops.preferences.addon_disable(module=MODULE)
-assert not hasattr(bpy.types, "HOLOMORPH_OT_maps"), "the add-on leaves classes behind"
+assert not hasattr(bpy.types, "HOLOMORPH_PT_view3d"), "the add-on leaves classes behind"
 sys.stdout.flush()
 os._exit(0)

@@ -18,4 +18,4 @@ bpy.ops.preferences.addon_enable(module=MODULE)
 assert MODULE in bpy.context.preferences.addons, "the add-on was not enabled"
 use_addon.use()
 bpy.ops.preferences.addon_disable(module=MODULE)
-assert not hasattr(bpy.types, "HOLOMORPH_OT_maps"), "the add-on leaves classes behind"
+assert not hasattr(bpy.types, "HOLOMORPH_PT_view3d"), "the add-on leaves classes behind"

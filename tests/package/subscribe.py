@@ -44,6 +44,6 @@ assert bpy.ops.uv.holomorphic_maps.poll()
 
 # Classes that are still registered at the end make some versions crash or hang there.
 bpy.ops.preferences.addon_disable(module=MODULE)
-assert not hasattr(bpy.types, "HOLOMORPH_OT_maps"), "the add-on leaves classes behind"
+assert not hasattr(bpy.types, "HOLOMORPH_PT_view3d"), "the add-on leaves classes behind"
 sys.stdout.flush()
 os._exit(0)

@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import tomllib
-from conftest import extension, run, run_extension_program, wheels
+from conftest import run_extension_program, wheels
+from packages import extension, run
 from repository import ROOT, VERSION
 
 HERE = Path(__file__).resolve().parent

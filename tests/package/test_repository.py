@@ -7,7 +7,8 @@ import threading
 import zipfile
 
 import pytest
-from conftest import extension, run, run_extension_program
+from conftest import run_extension_program
+from packages import extension, run
 from repository import ROOT, VERSION
 
 SUBSCRIBE = ROOT / "tests" / "package" / "subscribe.py"

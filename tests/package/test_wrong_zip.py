@@ -3,7 +3,7 @@
 import zipfile
 
 import pytest
-from conftest import extension, run
+from packages import extension, run
 from repository import ROOT
 
 WRONG_ZIP = ROOT / "tests" / "package" / "wrong_zip.py"

@@ -1,11 +1,11 @@
 """The objects of the scene: making them, choosing them, and what the add-on has left on them."""
 
-import importlib
 import json
 
 import bmesh
 import bpy
 import numpy as np
+from enabled import addon
 from screen import area, hover, inside
 
 
@@ -76,7 +76,7 @@ def torus(name, around, across, x):
 
 
 def add_object(name, vertices, corners):
-    mesh_io = importlib.import_module("holomorph_addon.scene.mesh_io")
+    mesh_io = addon("scene.mesh_io")
     mesh = mesh_io.new_mesh(name, vertices, corners, np.arange(0, len(corners) + 1, 4))
     bpy.context.scene.collection.objects.link(bpy.data.objects.new(name, mesh))
 

@@ -1,5 +1,6 @@
 """Blender's window as a hand and an eye have it: where things are, the pointer, the keys, pictures."""
 
+import subprocess
 import sys
 from pathlib import Path
 
@@ -68,7 +69,9 @@ def inside(owner):
 
 
 def picture(name):
-    bpy.ops.screen.screenshot(filepath=str(FOLDER / name))
+    """The display, which the window fills: pictures that Blender takes itself are black in some versions."""
+    bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
+    subprocess.run(["import", "-window", "root", str(FOLDER / name)], check=True)
 
 
 def pixels(name):

@@ -1,9 +1,8 @@
 """Runs inside Blender with a window and simulated events: drags dials of the sidebar, and undoes what they did."""
 
-import importlib
-
 import bpy
 import numpy as np
+from enabled import addon
 from objects import clear, pick, torus
 from running import run, wait_until
 from screen import area, enter, event, inside, move, picture, region, tap, undo
@@ -12,10 +11,6 @@ from sidebar import open_sidebar, press_button
 seen = {}
 EVENNESS = 128  # pixels below the top of the sidebar
 STEPS = 8  # of the pointer
-
-
-def addon(name):
-    return importlib.import_module(f"holomorph_addon.{name}")
 
 
 def obj():

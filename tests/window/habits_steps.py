@@ -8,11 +8,11 @@ import json
 import bmesh
 import bpy
 from objects import clear, maps, pick, sheet, torus
-from running import run
+from running import run, wait_until
 from screen import area, click, enter, hover, inside, move, picture, region, tap
 from sidebar import open_sidebar
 
-TOOLS = 244  # pixels from the top of the sidebar to the header of Tools, before there is a result
+TOOLS = 291  # pixels from the top of the sidebar to the header of Tools, before there is a result
 seen = {}
 
 
@@ -45,7 +45,8 @@ def pie():
         picture(f"pie_{mode.lower()}.png")
         yield 0.12
         click(centre[0] - 150, centre[1])
-        yield 0.75
+        yield from wait_until(lambda: maps("Ring"))
+        yield 0.25
         seen[f"pie in {mode}"] = maps("Ring")
         picture(f"after_pie_{mode.lower()}.png")
         bpy.ops.object.mode_set(mode="OBJECT")
@@ -65,7 +66,8 @@ def selected_faces():
     hover(area("VIEW_3D"))
     yield 0.1
     tap("U", shift=True, ctrl=True)
-    yield 0.75
+    yield from wait_until(lambda: "holomorph_report" in bpy.data.objects["Ring"])
+    yield 0.25
     seen["faces"] = json.loads(bpy.data.objects["Ring"]["holomorph_report"])["faces"]
     picture("faces.png")
     bpy.ops.object.mode_set(mode="OBJECT")

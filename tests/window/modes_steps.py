@@ -85,6 +85,7 @@ def stroke():
 def a_stroke_before_the_button():
     """Undo takes back the map, then the stroke."""
     yield from begin("Small", "SCULPT")
+    seen["has a brush"] = bpy.context.scene.tool_settings.sculpt.brush is not None
     flat = heights("Small")
     yield from stroke()
     sculpted = heights("Small")

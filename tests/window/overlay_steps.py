@@ -1,12 +1,12 @@
 """Runs inside Blender with a window: looks at what is drawn over the 3D view, and writes down colours of its pixels."""
 
-import importlib
 import json
 
 import addon_utils
 import bpy
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
+from enabled import addon, package
 from objects import clear, pick, torus
 from running import run
 from screen import area, enter, inside, picture, pixels, region
@@ -14,10 +14,6 @@ from screen import area, enter, inside, picture, pixels, region
 seen = {}
 TOP = (0.0, 1.0, 0.4)  # a point of the torus in the middle between its vertices
 CORNER = (0.02, 0.8)  # in the width and height of the view: nothing is there
-
-
-def addon(name):
-    return importlib.import_module(f"holomorph_addon.{name}")
 
 
 def projected(point):
@@ -130,10 +126,10 @@ def without_the_addon():
     """Disabled while a heat map is shown: nothing of it is left, and nothing is called any more."""
     show("DENSITY")
     yield 0.25
-    addon_utils.disable("holomorph_addon")
+    addon_utils.disable(package())
     yield 0.25
     look_at_heat("disabled")
-    addon_utils.enable("holomorph_addon")
+    addon_utils.enable(package())
     yield 0.25
     show("DENSITY")
     yield 0.25

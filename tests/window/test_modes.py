@@ -14,6 +14,8 @@ def test_the_mode_stays_with_the_map_and_without_it(seen, step):
 
 
 def test_redo_makes_another_map_and_undo_takes_it_back_then_the_stroke_of_the_brush(seen):
+    if not seen["has a brush"]:
+        pytest.skip("this Blender came without its brushes")
     assert seen["after the stroke"] == ["SCULPT", BOTH_MAPS, True, True]
     assert seen["the redo panel"] == ["SCULPT", BOTH_MAPS[:1], True, True]
     assert seen["the map undone"] == ["SCULPT", [], True, True]

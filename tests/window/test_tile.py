@@ -3,7 +3,7 @@
 import pytest
 
 PICTURES = ["tiled.png", "tile_redo_panel.png", "tile_presets.png", "tile_preset.png"]
-PICTURES += ["drag_hovered.png", "drag_followed.png", "drag_kept.png"]
+PICTURES += ["drag_hovered.png", "drag_followed.png", "drag_kept.png", "drag_other_dials.png", "drag_loaded.png"]
 
 
 def test_the_button_tiles_in_the_background(seen):
@@ -32,6 +32,11 @@ def test_enter_keeps_the_pole_where_it_was_put(seen):
 
 def test_it_is_one_undo_step(seen):
     assert seen["map as before after undo"] and seen["pole is there after redo"]
+
+
+def test_it_stays_with_other_dials_and_in_the_file(seen):
+    assert seen["pole is there with other dials"] and seen["pole is there in the file"]
+    assert seen["dials of the file"] == ["NONE", 30, 0.8]
 
 
 def test_the_texture_follows_soon(seen):

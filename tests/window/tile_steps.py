@@ -1,15 +1,15 @@
 """Runs inside Blender with a window and simulated events: tiles, uses the redo panel and its presets, drags poles."""
 
-import importlib
 import json
 import time
 
 import bpy
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
+from enabled import addon
 from objects import clear, part_report, pick, torus
 from running import run, wait_until
-from screen import area, click, enter, event, hover, inside, move, picture, region, tap, undo
+from screen import FOLDER, area, click, enter, event, hover, inside, move, picture, region, tap, undo
 from sidebar import open_sidebar, press_button
 
 seen = {}
@@ -17,12 +17,13 @@ NAME = "Ring"
 WOOD = 202  # pixels below the top of the sidebar, of the preset
 
 
-def addon(name):
-    return importlib.import_module(f"holomorph_addon.{name}")
-
-
 def obj():
     return bpy.data.objects[NAME]
+
+
+def is_behind():
+    stored = addon("results.stored")
+    return stored.is_behind(stored.parsed(obj()["holomorph_report"]), obj())
 
 
 def uv():
@@ -148,6 +149,30 @@ def dragging():
     seen["map as before after undo"] = bool(np.array_equal(uv(), before)) and poles() == old
     yield from undo(again=True)
     seen["pole is there after redo"] = poles()[pole] == place
+    yield from the_drag_stays(place)
+
+
+def the_drag_stays(place):
+    """With other dials, and in the file."""
+    for name, value in (("turns", "NONE"), ("tiles", 30), ("evenness", 0.8)):
+        setattr(obj().holomorph_map, name, value)
+        yield from wait_until(lambda: not is_behind())
+        yield 0.25
+    seen["pole is there with other dials"] = place in poles()
+    picture("drag_other_dials.png")
+    path = str(FOLDER / "kept.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    yield 1
+    pick(NAME)
+    yield from press_button("VIEW_3D")
+    yield 1
+    yield from wait_until(lambda: addon("operators.mixins").WorkOperator.running is None)
+    yield 0.25
+    dials = obj().holomorph_map
+    seen["dials of the file"] = [dials.turns, dials.tiles, round(dials.evenness, 6)]
+    seen["pole is there in the file"] = place in poles()
+    picture("drag_loaded.png")
 
 
 run((prepare, tiling, redo_panel, dragging), seen)

@@ -3,23 +3,25 @@
 Leaves FOLDER/window_steps.json (name of the step: what was seen) and pictures.
 """
 
-import importlib
 import threading
 import time
 
 import bpy
+from enabled import addon
 from objects import clear, maps, part_report, pick, pick_vertices, sheet, torus
 from running import run, wait_until
 from screen import area, click, enter, hover, inside, picture, region, tap, undo
 from sidebar import count_draws, drawn, open_tab, press_button
 
+CROSS = 0.86  # of the sidebar's width
+HAS_CROSS = bpy.app.version >= (4, 2)
 seen = {}
 
 
 def note(method):
     """A list that gets the time at which the operator first calls this method of its modal part."""
     called = []
-    operator = importlib.import_module("holomorph_addon.operators.mapping").HOLOMORPH_OT_maps
+    operator = addon("operators.mapping").HOLOMORPH_OT_maps
     original = getattr(operator, method)
 
     def noted(self, context):
@@ -34,7 +36,7 @@ def note(method):
 def hold_back_the_worker():
     """At the library's next question: however long the window takes to draw, ESC comes before the work is done. Returns
     what lets it go on."""
-    watch = importlib.import_module("holomorph_addon.native").load().core.progress.Watch
+    watch = addon("native").load().core.progress.Watch
     original, gate = watch.__call__, threading.Event()
 
     def ask(self, fraction, stage):
@@ -153,6 +155,28 @@ def chosen_vertices():
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
+def stopped(way):
+    """While it runs, by the key or by the cross beside the progress; seconds until it ends."""
+    ended, shown = note("_end_modal"), note("_show_progress")
+    let_go = hold_back_the_worker()
+    yield from press_button("VIEW_3D")
+    yield from wait_until(lambda: shown)
+    yield 0.1  # for it to be drawn
+    seen[f"no maps before the {way}"] = maps("Big")
+    picture(f"running_{way.lower()}.png")
+    start = time.perf_counter()
+    if way == "cross":
+        yield from press_button("VIEW_3D", right=CROSS)
+    else:
+        tap(way)
+    yield from wait_until(lambda: ended)
+    seen[f"seconds until the {way} ends it"] = ended[0] - start
+    yield 0.12
+    let_go()
+    yield 0.12
+    seen[f"after the {way}"] = maps("Big")
+
+
 def big_mesh():
     view = area("VIEW_3D")
     pick("Big")
@@ -160,21 +184,9 @@ def big_mesh():
         bpy.ops.view3d.view_selected()
         bpy.ops.ed.undo_push(message="Big")
     yield 0.25
-    ended, shown = note("_end_modal"), note("_show_progress")
-    let_go = hold_back_the_worker()
-    yield from press_button("VIEW_3D")
-    yield from wait_until(lambda: shown)
-    yield 0.1  # for it to be drawn
-    seen["no maps while it runs"] = maps("Big")
-    picture("running.png")
-    start = time.perf_counter()
-    tap("ESC")
-    yield from wait_until(lambda: ended)
-    seen["seconds to cancel"] = ended[0] - start
-    yield 0.12
-    let_go()
-    yield 0.12
-    seen["after ESC"] = maps("Big")
+    yield from stopped("ESC")
+    if HAS_CROSS:
+        yield from stopped("cross")
     yield from press_button("VIEW_3D")
     yield from wait_until(lambda: maps("Big"))
     yield 0.25
