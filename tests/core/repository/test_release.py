@@ -109,6 +109,8 @@ def test_the_steps_say_what_is_to_fill_in_and_what_was_not_made(release, copy):
     assert [step.split(".")[0] for step in said[:3]] == [
         f"Not made here: {name}" for name in ("macos-arm64", "macos-x64", "linux-arm64")
     ]
+    assert not [step for step in said if "their own systems" in step]
+    assert [step for step in release.steps(VERSION, copy, ["windows-x64"]) if "their own systems" in step]
     index, platform = (
         next(k for k, step in enumerate(said) if word in step) for word in ("twine", "extension platform")
     )
