@@ -119,6 +119,8 @@ def test_what_cannot_run_is_skipped(program, run, monkeypatch):
     monkeypatch.setattr(program, "BLENDER", "no-such-program")
     assert run(python("exit(1)"), blender="needed") == (0, 0, 1, [])
     assert run(python("exit(1)"), python="9.9") == (0, 0, 1, [])
+    monkeypatch.setattr(program.shutil, "which", lambda name: None)
+    assert run(python("exit(1)"), debian="trixie") == (0, 0, 1, [])
 
 
 def test_all_suites_have_a_row(program):
