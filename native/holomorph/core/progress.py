@@ -1,12 +1,19 @@
-"""Progress functions of parts of the work, one that is looked at, work in a thread, and parts in several threads."""
+"""Progress functions of parts of the work, one that is looked at, work in a thread, and parts in several threads.
+
+What makes threads is imported when they are made, as it takes long.
+"""
+
+from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from concurrent.futures import FIRST_EXCEPTION, Future, ThreadPoolExecutor, wait
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .._native import Cancelled
 from .array_types import Progress
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
 
 
 def scaled(progress: Progress | None, begin: float, end: float) -> Progress | None:
@@ -49,6 +56,8 @@ class Watch:
 
 def in_background(work: Callable[[], object]) -> Future:
     """Starts the work in a thread of its own, which ends with it. The future tells when, and raises what was raised."""
+    from concurrent.futures import ThreadPoolExecutor
+
     pool = ThreadPoolExecutor(1, "holomorph")
     future = pool.submit(work)
     pool.shutdown(wait=False)
@@ -101,6 +110,8 @@ class _Crew:
 
     def results(self, work, threads):
         """{k: result}."""
+        from concurrent.futures import ThreadPoolExecutor
+
         left, found = iter(self._shares), {}
         begun = [[] for _ in range(min(threads, len(self._shares)))]  # parts that each thread has begun
         with ThreadPoolExecutor(len(begun)) as pool:
@@ -118,6 +129,8 @@ class _Crew:
 
     def _watch(self, pending: Sequence[Future]):
         """Waits until all are done or one has failed; False if the progress function cancels."""
+        from concurrent.futures import FIRST_EXCEPTION, wait
+
         while pending:
             finished, pending = wait(pending, TICK, FIRST_EXCEPTION)
             if any(one.exception() is not None for one in finished):

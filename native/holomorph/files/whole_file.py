@@ -3,9 +3,7 @@
 import contextlib
 import errno
 import os
-import shutil
 import stat
-import uuid
 from pathlib import Path
 
 EMPTY = bytes(2**12)
@@ -109,6 +107,8 @@ def folder_beside(path):
                 target.parent.mkdir(exist_ok=True)
                 _move(made, target)
     finally:
+        import shutil  # which imports what packs archives
+
         shutil.rmtree(new, ignore_errors=True)
 
 
@@ -133,13 +133,13 @@ def _place(path):
 
 
 def _hidden_name():
-    return f".{uuid.uuid4().hex}"
+    return f".{os.urandom(16).hex()}"
 
 
 def _move(new, place):
     """Keeps the mode of a file that is replaced."""
     with contextlib.suppress(FileNotFoundError):
-        shutil.copymode(place, new)
+        os.chmod(new, stat.S_IMODE(os.stat(place).st_mode))
     os.replace(new, place)
 
 
