@@ -75,14 +75,14 @@ multiresolution::HarmonicMap harmonic_map(const mesh::Surface& surface, const Co
 py::array evened(const mesh::Surface& surface, const Contiguous<double>& uv, std::vector<int> poles, std::vector<int> u,
                  std::vector<int> v, double evenness, const std::string& solver, int threads,
                  const py::object& progress) {
-  const uv::UvArray given = corners(uv);
+  uv::UvArray given = corners(uv);
   uv::UvArray result;
   Execution execution(threads, callback(progress));
   {
     const py::gil_scoped_release unlocked;
     execution.stage("evening", 0.0, 1.0);
-    result = evening::evened(surface, given, {std::move(poles), std::move(u), std::move(v), {}, {}}, evenness,
-                             execution, solver);
+    result = evening::evened(surface, std::move(given), {std::move(poles), std::move(u), std::move(v), {}, {}},
+                             evenness, execution, solver);
     execution.finish();
   }
   return give_matrix(std::move(result));

@@ -137,11 +137,11 @@ Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept
 
 }  // namespace
 
-uv::UvArray evened(const mesh::Surface& surface, const uv::UvArray& uv, const Kept& kept, double evenness,
+uv::UvArray evened(const mesh::Surface& surface, uv::UvArray uv, const Kept& kept, double evenness,
                    Execution& execution, const std::string& solver) {
-  uv::UvArray result = uv::UvArray::Zero(surface.vertex_count, 2);
-  if (evenness == 0) return result;
+  if (evenness == 0) return uv::UvArray::Zero(surface.vertex_count, 2);
   const StrainEnergy energy(surface, uv, kept.poles, kept.turns, execution.workers());
+  uv.resize(0, 2);  // the energy knows it, and its memory is free for the descent
   // The first weight of size with which no more area is flipped than before. If there is none, the map stays as it is.
   double most = 1, vertex_steps = kMostTurning * std::max(surface.vertex_count, kFewVertices);
   for (const double factor : kFactors) {
@@ -149,11 +149,12 @@ uv::UvArray evened(const mesh::Surface& surface, const uv::UvArray& uv, const Ke
     const Found found = least(surface, energy, kept, factor * lambda_of(evenness), solver, vertex_steps, execution);
     if (found.flipped_more > kMuch) most = factor / 2;
     if (found.flipped_more > 0) continue;
+    uv::UvArray result(surface.vertex_count, 2);
     for_rows(execution.workers(), surface.vertex_count,
              [&](int v) { result.row(v) << found.delta[v].real(), found.delta[v].imag(); });
-    break;
+    return result;
   }
-  return result;
+  return uv::UvArray::Zero(surface.vertex_count, 2);
 }
 
 double strain(const mesh::Surface& surface, const uv::UvArray& uv, const Kept& kept, double evenness,

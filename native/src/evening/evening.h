@@ -27,7 +27,7 @@ inline constexpr double kUsualPower = 0.6;
 /// @param uv #C x 2, with translations for jumps. @param evenness from 0, which gives 0, to 1
 /// @param solver "auto", "direct" or "multigrid"
 /// @pre the surface is connected and has no isolated vertices. @throws SolverError, Cancelled
-uv::UvArray evened(const mesh::Surface& surface, const uv::UvArray& uv, const Kept& kept, double evenness,
+uv::UvArray evened(const mesh::Surface& surface, uv::UvArray uv, const Kept& kept, double evenness,
                    Execution& execution, const std::string& solver = "auto");
 
 /// Returns the StrainEnergy of the map itself, with the weight of size that this evenness gives. @param uv, kept as

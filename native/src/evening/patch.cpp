@@ -93,9 +93,9 @@ double turn_back(StrainEnergy::Patch& patch, const Fixed& fixed, double lambda, 
 
 std::vector<char> StrainEnergy::near_flipped(const Function& delta, int rings) const {
   std::vector<char> inside(vertex_count(), 0);
-  for (const Triangle& triangle : triangles_) {
-    if (!(triangle.area > 0) || !flipped(triangle, derivatives(triangle, delta))) continue;
-    for (const int v : triangle.vertices) inside[v] = 1;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    if (!flips(t, delta)) continue;
+    for (const int v : triangles_[t].vertices) inside[v] = 1;
   }
   // Each ring adds the triangles that touch those before.
   for (int ring = 0; ring < rings; ++ring) {
@@ -159,7 +159,7 @@ std::vector<StrainEnergy::Patch> StrainEnergy::around_flipped(const Function& de
     patch.energy.whole_area_ = whole_area_;
     for (const int t : of_patch[p]) {
       Triangle triangle = triangles_[t];
-      const Derivatives before{triangle.a, triangle.b}, map = derivatives(triangle, delta);
+      const Derivatives before{triangle.a, triangle.b}, map = derivatives(t, delta);
       if (triangle.area > 0 && flipped(triangle, before)) patch.flipped_before += triangle.area;
       // delta becomes part of the map, so that the patch begins with the function 0.
       triangle.a = map.a;
@@ -174,6 +174,7 @@ std::vector<StrainEnergy::Patch> StrainEnergy::around_flipped(const Function& de
         v = number[v];
       }
       patch.energy.triangles_.push_back(triangle);
+      if (!turned_.empty()) patch.energy.turned_.push_back(turned_[t]);
     }
     for (std::size_t i = patch.free_count; i < patch.vertices.size(); ++i) number[patch.vertices[i]] = -1;
     patch.energy.find_stars(static_cast<int>(patch.vertices.size()));

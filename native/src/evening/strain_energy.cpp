@@ -81,7 +81,7 @@ void StrainEnergy::Triangle::lay_out(const mesh::Surface& surface, int t, const 
 
 StrainEnergy::StrainEnergy(const mesh::Surface& surface, const uv::UvArray& uv, const std::vector<int>& poles,
                            const CornerTurns& turns, Workers& workers)
-    : triangles_(surface.triangles.size()) {
+    : triangles_(surface.triangles.size()), turned_(turns.size()) {
   std::vector<char> is_pole(surface.vertex_count, 0);
   for (const int v : poles) is_pole[v] = 1;
   const auto count = static_cast<int>(triangles_.size());
@@ -93,7 +93,7 @@ StrainEnergy::StrainEnergy(const mesh::Surface& surface, const uv::UvArray& uv, 
     if (!turns.empty()) {
       // The energy does not change where the map is turned back by what turns corner 0.
       const Complex back = std::conj(turns[t][0]);
-      triangle.turned = {turns[t][1] * back, turns[t][2] * back};
+      turned_[t] = {turns[t][1] * back, turns[t][2] * back};
       triangle.a *= back, triangle.b *= back;
     }
     // The mean of ln |a|^2 by area, which is ln of the mean size where the map is conformal.
@@ -124,14 +124,23 @@ void StrainEnergy::find_stars(int vertex_count) {
   }
 }
 
-StrainEnergy::Derivatives StrainEnergy::derivatives(const Triangle& triangle, const Function& function) {
+StrainEnergy::Derivatives StrainEnergy::derivatives(std::size_t t, const Function& function) const {
+  const Triangle& triangle = triangles_[t];
   const auto& v = triangle.vertices;
   const auto [g1, g2] = triangle.gradients;
-  const auto [turned_1, turned_2] = triangle.turned;
+  const auto [turned_1, turned_2] = turned(t);
   const Complex along_1 = turned_1 * function[v[1]] - function[v[0]];
   const Complex along_2 = turned_2 * function[v[2]] - function[v[0]];
   return {triangle.a + 0.5 * (along_1 * std::conj(g1) + along_2 * std::conj(g2)),
           triangle.b + 0.5 * (along_1 * g1 + along_2 * g2)};
+}
+
+bool StrainEnergy::flipped(const Triangle& triangle, const Derivatives& map) {
+  return (std::norm(map.b) > std::norm(map.a)) != triangle.reversed;
+}
+
+bool StrainEnergy::flips(std::size_t t, const Function& function) const {
+  return triangles_[t].area > 0 && flipped(triangles_[t], derivatives(t, function));
 }
 
 StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambda, Function& gradient,
@@ -143,7 +152,8 @@ StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambd
     Complex* const at = &at_corners[3 * static_cast<std::size_t>(t)];
     at[0] = at[1] = at[2] = 0;
     if (!(triangle.area > 0)) return;
-    const Derivatives map = derivatives(triangle, delta);
+    const Derivatives map = derivatives(t, delta);
+    const Turned turns = turned(t);
     const TriangleEnergy local =
         triangle_energy(std::norm(map.a), std::norm(map.b), triangle.lambda(lambda), triangle.log_size);
     const double weight = triangle.area * triangle.emphasis;
@@ -154,7 +164,7 @@ StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambd
       const Complex g = triangle.gradients[k - 1];
       at[k] = by_a * g + by_b * std::conj(g);
       at[0] -= at[k];
-      at[k] *= std::conj(triangle.turned[k - 1]);
+      at[k] *= std::conj(turns[k - 1]);
     }
   });
   gradient.resize(vertex_count());
@@ -169,13 +179,13 @@ StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambd
 
 void StrainEnergy::emphasise_flipped(const Function& delta, Workers& workers) {
   for_rows(workers, static_cast<int>(triangles_.size()), [&](int t) {
-    Triangle& triangle = triangles_[t];
-    if (triangle.area > 0 && flipped(triangle, derivatives(triangle, delta))) triangle.emphasis *= kEmphasis;
+    if (flips(t, delta)) triangles_[t].emphasis *= kEmphasis;
   });
 }
 
-double StrainEnergy::stiffness_of(const Triangle& triangle, const Function& delta, double lambda) const {
-  const Derivatives map = derivatives(triangle, delta);
+double StrainEnergy::stiffness_of(std::size_t t, const Function& delta, double lambda) const {
+  const Triangle& triangle = triangles_[t];
+  const Derivatives map = derivatives(t, delta);
   const double size = std::norm(map.a), ratio = std::sqrt(std::norm(map.b) / size);
   const double stiff = stiffness(ratio, std::log(size) - triangle.log_size, triangle.lambda(lambda)) / size;
   const auto [g1, g2] = triangle.gradients;
@@ -192,7 +202,7 @@ Array<double> StrainEnergy::edge_weights(const mesh::Surface& surface, const Fun
     if (!(triangle.area > 0)) continue;
     const auto [g1, g2] = triangle.gradients;
     const std::array<Complex, 3> g = {-(g1 + g2), g1, g2};
-    const double stiff = stiffness_of(triangle, delta, lambda);
+    const double stiff = stiffness_of(t, delta, lambda);
     // -grad phi_i . grad phi_j times the area is the cotangent weight of the side from i to j.
     for (int k = 0; k < 3; ++k) weights[surface.triangle_edges[t][k]] -= stiff * dot(g[k], g[(k + 1) % 3]);
   }
@@ -201,15 +211,17 @@ Array<double> StrainEnergy::edge_weights(const mesh::Surface& surface, const Fun
 
 Eigen::SparseMatrix<double> StrainEnergy::laplacian(const Function& delta, double lambda, int count) const {
   std::vector<Eigen::Triplet<double>> entries;
-  const bool turn = std::ranges::any_of(triangles_, [](const Triangle& t) { return t.turned != Triangle().turned; });
+  const bool turn = std::ranges::any_of(turned_, [](const Turned& turned) { return turned != Turned{1, 1}; });
   const int parts = turn ? 2 : 1;
   for (int v = 0; v < parts * count; ++v) entries.emplace_back(v, v, kLeastStiff * std::exp(-log_size_) / whole_area_);
-  for (const Triangle& triangle : triangles_) {
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const Triangle& triangle = triangles_[t];
     if (!(triangle.area > 0)) continue;
     const auto [g1, g2] = triangle.gradients;
     const std::array<Complex, 3> g = {-(g1 + g2), g1, g2};
-    const double stiff = stiffness_of(triangle, delta, lambda);
-    const std::array<Complex, 3> turns = {1, triangle.turned[0], triangle.turned[1]};
+    const double stiff = stiffness_of(t, delta, lambda);
+    const auto [turned_1, turned_2] = turned(t);
+    const std::array<Complex, 3> turns = {1, turned_1, turned_2};
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
         const int row = triangle.vertices[i], column = triangle.vertices[j];

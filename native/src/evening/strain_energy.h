@@ -75,35 +75,35 @@ class StrainEnergy {
   };
   struct Triangle {
     mesh::Triple vertices;
+    bool at_pole = false, keeps_shape = false, reversed = false;  // whatever its size; reversed in the plane of z
     Complex a, b;  // the map is a z + b conj(z) + constant; z along side 0, at a pole the map itself
-    std::array<Complex, 2> gradients;     // gradients of the hat functions of corners 1 and 2
-    std::array<Complex, 2> turned{1, 1};  // by which functions at corners 1 and 2 are turned, from corner 0
-    double area = 0;                      // 0: does not count
-    double emphasis = 1;                  // by which its part of the energy is multiplied
-    double log_size = 0;                  // 2 ln of the size that it is to have
-    bool at_pole = false;
-    bool keeps_shape = false, reversed = false;  // whatever its size; reversed in the plane of z
+    std::array<Complex, 2> gradients;  // gradients of the hat functions of corners 1 and 2
+    double area = 0;                   // 0: does not count
+    double emphasis = 1;               // by which its part of the energy is multiplied
+    double log_size = 0;               // 2 ln of the size that it is to have
 
     void lay_out(const mesh::Surface& surface, int t, const uv::UvArray& uv);
     void keep_shape(const Derivatives& map);
     double lambda(double given) const { return keeps_shape ? 0 : given; }
   };
-  static bool flipped(const Triangle& triangle, const Derivatives& map) {
-    return (std::norm(map.b) > std::norm(map.a)) != triangle.reversed;
-  }
+  using Turned = std::array<Complex, 2>;  // by which functions at corners 1 and 2 are turned, from corner 0
+  static bool flipped(const Triangle& triangle, const Derivatives& map);
 
   StrainEnergy() = default;
   void find_stars(int vertex_count);
   // #V: marks the corners of triangles that delta flips, and of this number of rings around them.
   std::vector<char> near_flipped(const Function& delta, int rings) const;
-  // Derivatives of the map with the function added.
-  static Derivatives derivatives(const Triangle& triangle, const Function& function);
+  Turned turned(std::size_t t) const { return turned_.empty() ? Turned{1, 1} : turned_[t]; }
+  // Derivatives of the map on triangle t with the function added, and whether that flips it.
+  Derivatives derivatives(std::size_t t, const Function& function) const;
+  bool flips(std::size_t t, const Function& function) const;
   // The factor of the squared gradient of a change in the second derivatives.
-  double stiffness_of(const Triangle& triangle, const Function& delta, double lambda) const;
+  double stiffness_of(std::size_t t, const Function& delta, double lambda) const;
 
   double log_size_ = 0;    // 2 ln s0
   double whole_area_ = 1;  // area of the triangles that the mean is over
   Array<Triangle> triangles_;
+  Array<Turned> turned_;                         // #T; empty: by none
   std::vector<int> star_starts_, star_corners_;  // at each vertex, 3 t + i where it is corner i of triangle t
 };
 

@@ -105,8 +105,8 @@ Tiling with_evenness(std::shared_ptr<const ConformalTiling> conformal, double ev
     evening::Kept kept{conformal->poles, {}, {}, {}, {}};
     if (conformal->straight) kept.v = boundary_vertices(surface);
     // Evening adds a function on the vertices, so that jumps and straight boundaries stay.
-    const uv::UvArray uv = seamless_uv(*conformal->structure, conformal->seamless, function, execution);
-    function += evening::evened(surface, uv, kept, evenness, execution);
+    uv::UvArray uv = seamless_uv(*conformal->structure, conformal->seamless, function, execution);
+    function += evening::evened(surface, std::move(uv), kept, evenness, execution);
   }
   execution.stage("UV map", 0.9, 1.0);
   Tiling result{conformal, evenness, {}};

@@ -232,8 +232,8 @@ uv::UvArray PlacedCones::coordinates(const VectorXcd& y, const NearestMap::Round
 VectorXcd PlacedCones::evened(VectorXcd y, const NearestMap::Rounded& rounded, double evenness,
                               Execution& execution) const {
   if (evenness == 0) return y;
-  const uv::UvArray uv = in_plane(space_.lattice, coordinates(y, rounded));
-  const uv::UvArray delta = evening::evened(*surface_, uv, kept(), evenness, execution);
+  uv::UvArray uv = in_plane(space_.lattice, coordinates(y, rounded));
+  const uv::UvArray delta = evening::evened(*surface_, std::move(uv), kept(), evenness, execution);
   for (int v = 0; v < surface_->vertex_count; ++v) y[v] += Complex(delta(v, 0), delta(v, 1));
   return y;
 }
