@@ -199,7 +199,7 @@ def groetzsch_inverse(y):
 
 
 def trapezoid_modulus(height):
-    """Of the corners 1 + i height, i (height - 1), 0 and 1 (Burnside 1893; Hakula, Rasila & Vuorinen 2011)."""
+    """That of the corners 1 + i height, i (height - 1), 0 and 1 (Burnside 1893; Hakula, Rasila & Vuorinen 2011)."""
     c = 2 * height - 1
     first, second = groetzsch_inverse(np.pi / (2 * c)), groetzsch_inverse(np.pi * c / 2)
     r = ((first - second) / (first + second)) ** 2
