@@ -125,7 +125,6 @@ MUTATIONS = (
     | of(
         PACKAGE + "forms/refined_triangles.py",
         ("distances", "OF_DISTANCE = 3 *", "OF_DISTANCE = 0.3 *", REFINED),
-        ("distances-exact", "np.zeros(len(t)) if is_exact else UNIT * length", "np.zeros(len(t))", REFINED),
         ("lengths-growth", "change * (1 + change), 1)", "0.1 * change, 1)", REFINED),
         ("lengths-after-others", "errors + growth + errors * growth", "errors + growth", REFINED),
         ("areas-of-needles", "(c - (a - b)) * (c + (a - b))", "(c - a + b) * (c + a - b)", REFINED),

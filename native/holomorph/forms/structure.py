@@ -49,10 +49,10 @@ def conformal_structure(
     memory_limit : bytes that may be in use at once, without the surface itself; None refuses nothing but thousands of
         forms on a small mesh, beyond 1 GB and 100 kB for each vertex. Where the forms of a closed surface do not fit
         (None: in 2 GB), they are solved for in blocks, and `uv` solves for each map
-    bounds : relative width that the bounds of the period matrix (capacities, modulus) are to have, such as 1e-4. The
-        surface is then refined inside, by intrinsic triangles where its bounds lose most, until they are as narrow or
-        `most_faces` would be exceeded; the result's `refinement` tells. UVs and forms remain those of the surface's own
-        triangles
+    bounds : relative width that the bounds of the period matrix (capacities, modulus) are to have, such as 1e-8. Forms
+        are then solved for again by elements of higher order, on triangles that are cut smaller towards cone points
+        where the bounds lose most, until they are as narrow, or `most_faces` or `memory_limit` (None: 8 GB) would be
+        exceeded; the result's `refinement` tells. UVs and forms remain those of the surface's own triangles
     most_faces : number of triangles up to which `bounds` may refine
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 

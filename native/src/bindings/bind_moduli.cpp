@@ -219,7 +219,7 @@ structure::NestedLevel solve_level(const mesh::Surface& surface, const Contiguou
   Execution execution(threads, callback(progress));
   const Eigen::Map<const SideClasses> given(classes.data(), classes.shape(0), classes.shape(1));
   const py::gil_scoped_release unlocked;
-  return structure::solve_level(surface, given, natural, order, {"direct", memory_limit}, execution);
+  return structure::solve_level(surface, given, natural, order, memory_limit, execution);
 }
 
 // Energies of forms with these functions, on the Delaunay triangulation of the surface.

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/errors.h"
@@ -42,6 +43,15 @@ ElementForms::ElementForms(const mesh::HalfEdges& half_edges, std::vector<mesh::
       classes_(classes),
       natural_(natural),
       reference_(reference_element(order)) {}
+
+// The factor, and the entries that it is made of: T triangles take about 45 p^2 T log2 T bytes.
+std::int64_t ElementForms::bytes() const {
+  constexpr double kFactor = 50, kCopies = 4;
+  const double count = faces(), p = reference_.order;
+  const auto rows = static_cast<double>(unknowns()) + count * reference_.inner();
+  return static_cast<std::int64_t>(kFactor * p * p * count * std::log2(count + 1) +
+                                   kCopies * 8 * rows * classes_.form_count);
+}
 
 std::vector<int> ElementForms::families() const {
   std::vector<int> result{natural_};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "base/execution.h"
@@ -38,12 +39,15 @@ class ElementForms {
   std::vector<double> gaps(const forms::RowMajorMatrix& functions, const std::vector<Eigen::MatrixXd>& gram,
                            Execution& execution) const;
 
-  /// Unknowns of the linear system.
-  Eigen::Index unknowns() const { return vertex_begin() + static_cast<Eigen::Index>(half_edges_.n_vertices()); }
+  /// An estimate of the memory that `solve` takes, as measured and rounded up, in bytes.
+  std::int64_t bytes() const;
 
  private:
   struct Condensed;
   using Stiffness = std::array<double, 3>;
+
+  /// Unknowns of the linear system.
+  Eigen::Index unknowns() const { return vertex_begin() + static_cast<Eigen::Index>(half_edges_.n_vertices()); }
 
   int faces() const { return static_cast<int>(half_edges_.n_faces()); }
   Eigen::Index vertex_begin() const { return static_cast<Eigen::Index>(half_edges_.n_edges()) * reference_.of_side(); }

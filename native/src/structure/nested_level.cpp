@@ -1,5 +1,6 @@
 #include "structure/nested_level.h"
 
+#include <string>
 #include <utility>
 
 #include "elements/element_forms.h"
@@ -11,6 +12,9 @@
 
 namespace holomorph::structure {
 namespace {
+
+// Elements take no more where no limit is set: 8 GB.
+constexpr std::int64_t kMostBytes = 8'000'000'000;
 
 using mesh::edge_of;
 using mesh::HalfedgeHandle;
@@ -114,7 +118,7 @@ std::vector<double> length_errors(const mesh::Surface& surface) {
 }
 
 NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, int natural, int order,
-                        const Options& options, Execution& execution) {
+                        std::int64_t memory_limit, Execution& execution) {
   NestedLevel level;
   execution.stage("refined triangulation", 0.0, 0.2);
   const auto triangulation = delaunay(surface, execution);
@@ -128,8 +132,9 @@ NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, 
   write_triangulation(triangulation.half_edges, classes, level);
 
   const elements::ElementForms forms(triangulation.half_edges, face_weights(triangulation), classes, natural, order);
-  plan_memory({forms.unknowns(), order * static_cast<std::int64_t>(surface.triangles.size()), classes.form_count},
-              {"direct", options.memory_limit}, Keeping::all);
+  require_memory("elements of order " + std::to_string(order) + " on " + std::to_string(level.triangles.size()) +
+                     " triangles, for bounds,",
+                 forms.bytes(), memory_limit > 0 ? memory_limit : kMostBytes);
   execution.stage("refined forms", 0.2, 0.8);
   level.functions = forms.solve(execution);
   execution.stage("refined bounds", 0.8, 1.0);

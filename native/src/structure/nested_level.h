@@ -3,12 +3,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "base/execution.h"
 #include "forms/closed_forms.h"
 #include "mesh/surface.h"
-#include "structure/options.h"
 #include "structure/structure.h"
 
 namespace holomorph::structure {
@@ -34,10 +34,10 @@ struct NestedLevel {
 
 /// Solves for the forms of these classes by elements of order p.
 /// @param natural how many of the classes are natural; the others are Dirichlet
-/// @param options the limit of memory; the system is factorised in any case
-/// @throws SolverError, Cancelled
+/// @param memory_limit bytes; 0: 8 GB
+/// @throws SolverError, where the limit does not hold the system, too; Cancelled
 NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& classes, int natural, int order,
-                        const Options& options, Execution& execution);
+                        std::int64_t memory_limit, Execution& execution);
 
 /// #T, by what part rounding its lengths may change energies on each triangle of a surface.
 std::vector<double> length_errors(const mesh::Surface& surface);

@@ -58,7 +58,7 @@ def test_triangles_of_any_shape_glue_to_the_same_surface(shape):
     check(solved(dessins.modular_curve(11, angles), EIGHT), dessins.curve(11))
 
 
-@pytest.mark.parametrize("N", [34, 43])
+@pytest.mark.parametrize("N", [34, 43, 64])
 def test_curves_of_genus_3_that_are_not_hyperelliptic(N):
     assert hyperelliptic(solved(dessins.modular_curve(N), 1e-4)).verdict == "no"
 

@@ -104,3 +104,11 @@ def test_progress_is_told_by_level():
         surface_of(GRADED["octagon"]), bounds=0.02, progress=lambda _, stage: stages.append(stage) or True
     )
     assert any(stage.startswith("level 2") for stage in stages)
+
+
+def test_memory_limits_it():
+    """The bounds of the levels before hold."""
+    structure = conformal_structure(surface_of(GRADED["decagon"]), bounds=1e-8, memory_limit=1_000_000)
+    assert not structure.refinement.reached and "memory_limit is 1000000" in structure.refinement.reason
+    assert structure.refinement.levels[-1][1] < structure.refinement.levels[0][1] / 2
+    assert structure.certificate.holds
