@@ -214,7 +214,7 @@ def _sentence(verdict, residual, tolerance, margin, is_complete, is_bounded):
     if not is_complete:
         return f"Undecided: the search among integer matrices reached its limit of {STEPS} steps."
     bound = f"with an error certainly below {_percent(tolerance)}"
-    return f"Undecided: {agree}, {bound}; finer meshes have narrower bounds."
+    return f"Undecided: {agree}, {bound}; narrower `bounds` may tell."
 
 
 def _percent(distance):

@@ -136,63 +136,71 @@ std::vector<int> ElementForms::fixed_unknowns() const {
   return fixed;
 }
 
-RowMajorMatrix ElementForms::solve(Execution& execution) const {
-  const int outer = reference_.outer(), count = classes_.form_count, size = outer + 1;
+// The condensed energies of all faces and the right-hand sides, face by face in their order.
+ElementForms::System ElementForms::assembled(Execution& execution) const {
+  const int outer = reference_.outer(), size = outer + 1;
   std::vector<Eigen::Triplet<double, int>> entries;
   entries.reserve(static_cast<std::size_t>(faces()) * size * size);
-  MatrixXd B = MatrixXd::Zero(unknowns(), count);
-  std::vector<MatrixXd> slots(forms::kBatch * kFaces);
-  int next = 0;  // the face that is added next
+  System system{{}, MatrixXd::Zero(unknowns(), classes_.form_count)};
+  const auto add = [&](int face, const MatrixXd& S) {
+    // In the values at all corners: the differences along l1 and l2 are theirs less that at corner 0.
+    MatrixXd K(size, size);
+    K.bottomRightCorner(outer, outer) = S;
+    K.row(0).tail(outer) = -(S.row(0) + S.row(1));
+    K.col(0).tail(outer) = K.row(0).tail(outer).transpose();
+    K(0, 0) = -(K(0, 1) + K(0, 2));
+    VectorXd signs;
+    const auto unknown = outer_unknowns(face, signs);
+    K = signs.asDiagonal() * K * signs.asDiagonal();
+    const MatrixXd b = -K.middleCols(1, 2) * class_values(face);
+    for (int i = 0; i < size; ++i) {
+      system.B.row(unknown[i]) += b.row(i);
+      for (int j = 0; j < size; ++j)
+        entries.emplace_back(static_cast<int>(unknown[i]), static_cast<int>(unknown[j]), K(i, j));
+    }
+  };
+  std::vector<std::vector<MatrixXd>> slots(forms::kBatch);
+  int face = 0;
   forms::for_blocks<kFaces>(
-      faces(), execution, 0, 0.3,
+      faces(), execution, 0, 0.75,
       [&](int slot, int begin, int end) {
-        for (int f = begin; f < end; ++f) slots[slot * kFaces + f - begin] = condensed(f).S;
+        slots[slot].clear();
+        for (int f = begin; f < end; ++f) slots[slot].push_back(condensed(f).S);
       },
       [&](int slot) {
-        for (int k = 0; k < kFaces && next < faces(); ++k, ++next) {
-          const MatrixXd& S = slots[slot * kFaces + k];
-          MatrixXd K(size, size);
-          K.bottomRightCorner(outer, outer) = S;
-          K.row(0).tail(outer) = -(S.row(0) + S.row(1));
-          K.col(0).tail(outer) = K.row(0).tail(outer).transpose();
-          K(0, 0) = -(K(0, 1) + K(0, 2));
-          VectorXd signs;
-          const auto unknown = outer_unknowns(next, signs);
-          K = signs.asDiagonal() * K * signs.asDiagonal();
-          const MatrixXd b = -K.middleCols(1, 2) * class_values(next);
-          for (int i = 0; i < size; ++i) {
-            B.row(unknown[i]) += b.row(i);
-            for (int j = 0; j < size; ++j)
-              entries.emplace_back(static_cast<int>(unknown[i]), static_cast<int>(unknown[j]), K(i, j));
-          }
-        }
+        for (const MatrixXd& S : slots[slot]) add(face++, S);
       });
   Execution::count(static_cast<double>(faces()) * cube(reference_.count()) / 4);
-  solver::Laplacian L;
-  {
-    Eigen::SparseMatrix<double> matrix(unknowns(), unknowns());
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    entries = {};
-    L.starts.assign(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1);
-    L.columns.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
-    L.weights.assign(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros());
-  }
   // The flux of a form sums to 0 over the vertices. Where all forms are harmonic from the start, B is rounding alone.
-  auto fluxes = B.bottomRows(static_cast<Index>(half_edges_.n_vertices()));
+  auto fluxes = system.B.bottomRows(static_cast<Index>(half_edges_.n_vertices()));
   fluxes.leftCols(natural_).rowwise() -= fluxes.leftCols(natural_).colwise().mean().eval();
-  execution.report(0.4);
-  const auto solver = solver::make_direct_solver(std::move(L), fixed_unknowns(), execution);
+  Eigen::SparseMatrix<double> matrix(unknowns(), unknowns());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  system.L.starts.assign(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1);
+  system.L.columns.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
+  system.L.weights.assign(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros());
+  execution.report(1);
+  return system;
+}
+
+RowMajorMatrix ElementForms::solve(Execution& execution) const {
+  const int count = classes_.form_count, inner = reference_.inner();
+  execution.part(0, 0.4);
+  System system = assembled(execution);
+  execution.part(0.4, 0.9);
+  const auto solver = solver::make_direct_solver(std::move(system.L), fixed_unknowns(), execution);
   std::vector<solver::Condition> conditions(count, solver::Condition::natural);
   std::fill(conditions.begin() + natural_, conditions.end(), solver::Condition::dirichlet);
-  RowMajorMatrix functions(unknowns() + static_cast<Index>(faces()) * reference_.inner(), count);
+  RowMajorMatrix functions(unknowns() + static_cast<Index>(faces()) * inner, count);
   // Dirichlet functions are exactly 0 on the boundary: only such ones are admissible.
-  functions.topRows(unknowns()) = solver->solve(B, conditions, execution);
-  if (reference_.inner() == 0) return functions;
+  functions.topRows(unknowns()) = solver->solve(system.B, conditions, execution);
+  execution.part(0.9, 1);
+  if (inner == 0) return functions;
   forms::for_blocks<kFaces>(
-      faces(), execution, 0.9, 1,
+      faces(), execution, 0, 1,
       [&](int, int begin, int end) {
         for (int f = begin; f < end; ++f)
-          functions.middleRows(unknowns() + static_cast<Index>(f) * reference_.inner(), reference_.inner()) =
+          functions.middleRows(unknowns() + static_cast<Index>(f) * inner, inner) =
               condensed(f).inside * outer_values(f, functions);
       },
       [](int) {});

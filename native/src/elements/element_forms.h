@@ -12,6 +12,7 @@
 #include "forms/gram_matrices.h"
 #include "mesh/half_edges.h"
 #include "mesh/metric_errors.h"
+#include "solver/laplace_solver.h"
 
 namespace holomorph::elements {
 
@@ -44,6 +45,10 @@ class ElementForms {
 
  private:
   struct Condensed;
+  struct System {
+    solver::Laplacian L;
+    Eigen::MatrixXd B;
+  };
   using Stiffness = std::array<double, 3>;
 
   /// Unknowns of the linear system.
@@ -57,6 +62,7 @@ class ElementForms {
   Eigen::MatrixXd combined(const Stiffness& weights, bool absolute = false) const;
   Eigen::MatrixXd class_values(int face) const;
   Condensed condensed(int face) const;
+  System assembled(Execution& execution) const;
   Eigen::MatrixXd outer_values(int face, const forms::RowMajorMatrix& functions) const;
   Eigen::MatrixXd values(int face, const forms::RowMajorMatrix& functions) const;
   std::vector<Eigen::Index> outer_unknowns(int face, Eigen::VectorXd& signs) const;
