@@ -57,6 +57,24 @@ def regular_polygon(n):
     return families.FlatSurface(faces, lengths, face_edges, genus=1 - chi // 2)
 
 
+def double_polygon(n):
+    """Two regular n-gons, n odd, one turned by half a turn, parallel sides glued: y^2 = x^n - 1. Both are cut from one
+    corner, into n - 2 triangles with angles down to pi / n."""
+    k = np.arange(1, n - 1)
+    chord = 2 * np.sin(np.pi * np.arange(n) / n)
+    lengths = np.stack([np.full(n - 2, chord[1]), chord[k + 1], chord[k]], axis=1)
+    # Side i is from corner i to i + 1; the diagonal from corner 0 to corner j, which is a side for j = 1 and n - 1.
+    names = [np.stack([k, diagonal[k + 1], diagonal[k]], axis=1) for diagonal in (_diagonals(n, 0), _diagonals(n, 1))]
+    faces = np.zeros((2 * (n - 2), 3), int)
+    return families.FlatSurface(faces, np.tile(lengths, (2, 1)), np.concatenate(names), genus=(n - 1) // 2)
+
+
+def _diagonals(n, copy):
+    names = n + copy * n + np.arange(n)
+    names[[1, n - 1]] = 0, n - 1
+    return names
+
+
 def by_edge_lengths(faces, edge_lengths):
     """`FlatSurface` whose edges are told by their ends; entry i of a row belongs to the side opposite corner i."""
     ends = np.sort(np.stack([np.roll(faces, -1, axis=1), np.roll(faces, -2, axis=1)], axis=2), axis=2)

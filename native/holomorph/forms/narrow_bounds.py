@@ -131,11 +131,14 @@ def _next(triangles, gaps, order, goal):
         is_enough = smooth * FALL ** (p - order) <= goal / 2
         if (is_enough or p == MOST_ORDER) and cost < best:
             best, chosen = cost, (p, layers)
+    to_halve = np.zeros(len(gaps), bool)
     if chosen[0] == order and not chosen[1].any():
         if order < MOST_ORDER:
-            return order + 1, chosen[1], np.zeros(len(gaps), bool)
-        return order, chosen[1], worst(gaps, HALVED)
-    return *chosen, np.zeros(len(gaps), bool)
+            return order + 1, chosen[1], to_halve
+        # Halved, a triangle loses nearly all of its gap at this order.
+        at_smooth = np.where(total == 0, gaps, 0)
+        to_halve = worst(at_smooth, 1 - goal / 2 / smooth) if smooth > goal / 2 else worst(gaps, HALVED)
+    return *chosen, to_halve
 
 
 def _layers(losses, exponents, goal):

@@ -52,6 +52,12 @@ def test_regular_polygons(sides):
     check(structure, POLYGONS[sides])
 
 
+@pytest.mark.parametrize("n", [5, 7])
+def test_double_polygons(n):
+    """Thin triangles, all of whose corners are one cone point."""
+    check(solved(flat_cones.double_polygon(n), EIGHT), [1, *[0] * (n - 1), -1])
+
+
 @pytest.mark.parametrize("shape", [(1.0, 1.2, 0.9), (0.4, 1.0, 1.7)], ids=str)
 def test_triangles_of_any_shape_glue_to_the_same_surface(shape):
     angles = (*shape[:2], np.pi - shape[0] - shape[1])
