@@ -17,6 +17,7 @@ HALVED = 0.8  # part of the gaps that the triangles have whose sides are halved,
 ROUNDING = 0.1  # gaps that add up to less of the width leave it to rounding
 ENOUGH = 0.8  # of the width asked for: what a level aims at
 SMOOTH = 1e-6  # by what the exponent of a form at a vertex may differ from an integer, and count as one
+TINY = 1e-74  # the shortest side
 REACHED = "the bounds are as narrow as asked for"
 
 
@@ -74,14 +75,14 @@ def narrow(native, width, most_faces, threads, memory_limit, progress=None):
         # Gaps add up to the trace of what the width is the largest eigenvalue of.
         goal = ENOUGH * width * float(solved.gaps.sum()) / levels[-1][1]
         order, layers, worst_triangles = _next(triangles, solved.gaps, order, goal)
-        if worst_triangles.any():
-            triangles = halved(triangles, worst_triangles)
-        elif layers.any():
-            triangles = with_layers(triangles, layers)
-        if len(triangles.corners) > most_faces:
-            reason = f"the next level would have {len(triangles.corners)} triangles, more than {most_faces}"
+        triangles = halved(triangles, worst_triangles)
+        count = count_with_layers(triangles, layers)
+        if count > most_faces:
+            reason = f"the next level would have {count} triangles, more than {most_faces}"
+        elif (layers > _deepest(triangles, len(layers))).any():
+            reason = "at the largest cone angle, triangles would have to be smaller than numbers can be"
         else:
-            surface, classes = surface_of_triangles(triangles)
+            surface, classes = surface_of_triangles(with_layers(triangles, layers))
     return Refinement(levels[-1][1] <= width, reason, tuple(levels), tuple(orders))
 
 
@@ -122,12 +123,11 @@ def _next(triangles, gaps, order, goal):
     smooth = float(gaps[total == 0].sum())
     shares *= (gaps / np.where(total > 0, total, 1))[:, None]
     at_vertices = np.bincount(triangles.corners.ravel(), shares.ravel(), minlength=len(exponents))
-    degrees = np.bincount(triangles.corners.ravel(), minlength=len(exponents))
     best = np.inf
     for p in range(order, MOST_ORDER + 1):
         # Where a form is like r^a, polynomials of degree p miss its energy by p^(-4 a).
         layers = _layers(at_vertices * (order / p) ** (4 * exponents), exponents, goal / 2)
-        cost = (len(gaps) + 2 * (layers + 2 * (layers > 0)) @ degrees) * p**3
+        cost = count_with_layers(triangles, layers) * p**3
         is_enough = smooth * FALL ** (p - order) <= goal / 2
         if (is_enough or p == MOST_ORDER) and cost < best:
             best, chosen = cost, (p, layers)
@@ -139,6 +139,21 @@ def _next(triangles, gaps, order, goal):
         at_smooth = np.where(total == 0, gaps, 0)
         to_halve = worst(at_smooth, 1 - goal / 2 / smooth) if smooth > goal / 2 else worst(gaps, HALVED)
     return *chosen, to_halve
+
+
+def count_with_layers(triangles, layers):
+    """How many triangles there are with these layers: each has two at a corner."""
+    if not layers.any():  # new vertices have none
+        return len(triangles.corners)
+    return len(triangles.corners) + 2 * int(layers[triangles.corners].sum())
+
+
+def _deepest(triangles, count):
+    """(count,) how many layers there may be at each vertex for squares of areas not to vanish."""
+    shortest = np.full(triangles.corners.max() + 1, np.inf)
+    for sides in (triangles.sides, np.roll(triangles.sides, 1, axis=1)):
+        np.minimum.at(shortest, triangles.corners, sides)
+    return np.floor(np.log(shortest[:count] / TINY) / np.log(1 / CUT))
 
 
 def _layers(losses, exponents, goal):

@@ -5,7 +5,9 @@ import flat_cones
 import numpy as np
 import pytest
 from equivalence import distance_or_mirrored
-from holomorph import TopologyError, conformal_structure
+from holomorph import TopologyError, _native, conformal_structure
+from holomorph.forms.narrow_bounds import count_with_layers, triangles_of_level
+from holomorph.forms.refined_triangles import with_layers
 from shared_data import complex_matrix, reference_values, shared_folder
 from solved import surface_of
 
@@ -112,3 +114,18 @@ def test_memory_limits_it():
     assert not structure.refinement.reached and "memory_limit is 1000000" in structure.refinement.reason
     assert structure.refinement.levels[-1][1] < structure.refinement.levels[0][1] / 2
     assert structure.certificate.holds
+
+
+def test_cones_too_sharp_for_layers_are_said():
+    """Angle 98 pi: forms like r^(1/49), whose layers would have 4^-200 of its size."""
+    refinement = conformal_structure(surface_of(flat_cones.regular_polygon(100)), bounds=1e-2).refinement
+    assert not refinement.reached and "smaller than numbers can be" in refinement.reason
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_triangles_are_counted_before_they_are_made(seed):
+    native = conformal_structure(surface_of(families.block_with_holes(2)))._native
+    solved = _native.solve_level(native.surface(), native.side_classes(), 4, 1, 1, 0, None)
+    triangles = triangles_of_level(solved)
+    layers = np.random.default_rng(seed).integers(-4, 5, triangles.corners.max() + 1).clip(0)
+    assert count_with_layers(triangles, layers) == len(with_layers(triangles, layers).corners)
