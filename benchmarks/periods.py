@@ -105,7 +105,7 @@ def convergence(mesh):
     structure = holomorph.conformal_structure(surface_of(mesh), threads=1)
     native, given = structure._native, (structure._native.surface(), structure._native.side_classes())
     natural = native.families().natural
-    base = triangles_of_level(_native.solve_level(*given, natural, 1, 1, 0, None))
+    base = triangles_of_level(_native.solve_level(*given, natural, 1, 1, None))
     rough = np.abs(vertex_exponents(base) % 1 - 0.5) < 0.5 - 1e-6
     found = {}
     for p in ORDERS:
@@ -115,7 +115,7 @@ def convergence(mesh):
                 unknowns = int(triangles.corners.max()) + 1 + (p - 1) * len(triangles.lengths)
                 if unknowns > MOST_UNKNOWNS:
                     break
-                solved = _native.solve_level(*surface_of_triangles(triangles), natural, p, 1, 0, None)
+                solved = _native.solve_level(*surface_of_triangles(triangles), natural, p, 1, None)
                 native.narrow(solved.energies.gram, solved.energies.certain, metric_error=0.0)
                 series.append((unknowns, relative_width(*native.period_bounds(), native.period_matrix().imag)))
                 triangles = halved(triangles, np.ones(len(triangles.corners), bool))

@@ -17,6 +17,8 @@ HALVED = 0.8  # part of the gaps that the triangles have whose sides are halved,
 ROUNDING = 0.1  # gaps that add up to less of the width leave it to rounding
 ENOUGH = 0.8  # of the width asked for: what a level aims at
 SMOOTH = 1e-6  # by what the exponent of a form at a vertex may differ from an integer, and count as one
+MOST_BYTES = 8e9  # of a level, where no limit is set
+FULL = "the next level would take more memory than memory_limit, or 8 GB"
 TINY = 1e-74  # the shortest side
 REACHED = "the bounds are as narrow as asked for"
 
@@ -53,12 +55,17 @@ def narrow(native, width, most_faces, threads, memory_limit, progress=None):
     """
     natural = native.families().natural
     surface, classes = native.surface(), native.side_classes()
-    levels, orders, order = [(len(surface.triangles), _width(native))], [1], _first_order(_width(native), width)
-    reason = REACHED if levels[0][1] <= width else ""
+    levels, orders = [(len(surface.triangles), _width(native))], [1]
+
+    def fits(count, order):
+        return _native.element_bytes(count, order, native.families().count) <= (memory_limit or MOST_BYTES)
+
+    order = next((p for p in _first_orders(_width(native), width) if fits(levels[0][0], p)), 0)
+    reason = REACHED if levels[0][1] <= width else "" if order else FULL
     while not reason:
         try:
             stage = _stage(progress, levels)
-            solved = _native.solve_level(surface, classes, natural, order, threads, memory_limit, stage)
+            solved = _native.solve_level(surface, classes, natural, order, threads, stage)
             rounding = float(solved.errors.max())
             if solved.mollification or rounding >= OPEN:
                 raise SolverError("triangles are too thin for bounds that are certain")
@@ -74,11 +81,13 @@ def narrow(native, width, most_faces, threads, memory_limit, progress=None):
             break
         # Gaps add up to the trace of what the width is the largest eigenvalue of.
         goal = ENOUGH * width * float(solved.gaps.sum()) / levels[-1][1]
-        order, layers, worst_triangles = _next(triangles, solved.gaps, order, goal)
+        order, layers, worst_triangles = _next(triangles, solved.gaps, order, goal, fits)
         triangles = halved(triangles, worst_triangles)
         count = count_with_layers(triangles, layers)
         if count > most_faces:
             reason = f"the next level would have {count} triangles, more than {most_faces}"
+        elif not fits(count, order):
+            reason = FULL
         elif (layers > _deepest(triangles, len(layers))).any():
             reason = "at the largest cone angle, triangles would have to be smaller than numbers can be"
         else:
@@ -90,8 +99,8 @@ def _width(native):
     return relative_width(*native.period_bounds(), native.period_matrix().imag)
 
 
-def _first_order(found, asked):
-    return 2 + (asked < 1e-2 * found) + (asked < 1e-4 * found)
+def _first_orders(found, asked):
+    return range(2 + (asked < 1e-2 * found) + (asked < 1e-4 * found), 1, -1)
 
 
 def _take_narrower(native, energies, rounding):
@@ -111,9 +120,10 @@ def _ended(levels, lost, width):
     return f"{MOST_LEVELS} levels were solved" if len(levels) == MOST_LEVELS else ""
 
 
-def _next(triangles, gaps, order, goal):
+def _next(triangles, gaps, order, goal, fits):
     """(order, layers at each vertex, triangles to halve) of the cheapest level whose gaps should be as small as `goal`:
-    an order that is enough where forms are smooth, layers that are where they are not."""
+    an order that is enough where forms are smooth, layers that are where they are not. Where none fits into memory,
+    `order` remains, with as many layers as should make the gaps a third."""
     exponents = vertex_exponents(triangles)
     roughness = np.abs(exponents - np.round(exponents))
     roughness[roughness <= SMOOTH] = 0
@@ -123,13 +133,14 @@ def _next(triangles, gaps, order, goal):
     smooth = float(gaps[total == 0].sum())
     shares *= (gaps / np.where(total > 0, total, 1))[:, None]
     at_vertices = np.bincount(triangles.corners.ravel(), shares.ravel(), minlength=len(exponents))
-    best = np.inf
+    best, chosen = np.inf, (order, _layers(at_vertices, exponents, float(gaps.sum()) / 3))
     for p in range(order, MOST_ORDER + 1):
         # Where a form is like r^a, polynomials of degree p miss its energy by p^(-4 a).
         layers = _layers(at_vertices * (order / p) ** (4 * exponents), exponents, goal / 2)
-        cost = count_with_layers(triangles, layers) * p**3
+        count = count_with_layers(triangles, layers)
+        cost = count * p**3
         is_enough = smooth * FALL ** (p - order) <= goal / 2
-        if (is_enough or p == MOST_ORDER) and cost < best:
+        if (is_enough or p == MOST_ORDER) and cost < best and fits(count, p):
             best, chosen = cost, (p, layers)
     to_halve = np.zeros(len(gaps), bool)
     if chosen[0] == order and not chosen[1].any():

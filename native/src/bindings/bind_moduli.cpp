@@ -6,6 +6,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
+#include "elements/element_forms.h"
 #include "elements/reference_element.h"
 #include "mesh/intrinsic_surface.h"
 #include "moduli/continuation.h"
@@ -215,11 +216,11 @@ std::shared_ptr<mesh::Surface> refined_surface(int vertex_count, const Contiguou
 }
 
 structure::NestedLevel solve_level(const mesh::Surface& surface, const Contiguous<int>& classes, int natural, int order,
-                                   int threads, std::int64_t memory_limit, const py::object& progress) {
+                                   int threads, const py::object& progress) {
   Execution execution(threads, callback(progress));
   const Eigen::Map<const SideClasses> given(classes.data(), classes.shape(0), classes.shape(1));
   const py::gil_scoped_release unlocked;
-  return structure::solve_level(surface, given, natural, order, memory_limit, execution);
+  return structure::solve_level(surface, given, natural, order, execution);
 }
 
 // Energies of forms with these functions, on the Delaunay triangulation of the surface.
@@ -262,10 +263,11 @@ void bind_nested_level(py::module_& m) {
       "length_errors", [](const mesh::Surface& surface) { return copy(structure::length_errors(surface)); },
       py::arg("surface"));
   m.def("solve_level", &solve_level, py::arg("surface"), py::arg("classes"), py::arg("natural"), py::arg("order"),
-        py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));
+        py::arg("threads"), py::arg("progress"));
   m.def("measure", &measure, py::arg("surface"), py::arg("classes"), py::arg("natural"), py::arg("functions"));
   m.def("measure_level", &measure_level, py::arg("surface"), py::arg("classes"), py::arg("natural"), py::arg("order"),
         py::arg("functions"));
+  m.def("element_bytes", &elements::bytes, py::arg("faces"), py::arg("order"), py::arg("forms"));
   m.def(
       "reference_element",
       [](int order) {

@@ -30,6 +30,13 @@ double cube(Index n) { return static_cast<double>(n) * static_cast<double>(n) * 
 
 }  // namespace
 
+// The factor and the entries that it is made of take about 45 p^2 T log2 T bytes. There are p^2 / 2 unknowns for each
+// face.
+double bytes(double faces, int order, int forms) {
+  constexpr double kFactor = 50, kCopies = 4;
+  return order * order * faces * (kFactor * std::log2(faces + 1) + kCopies * 8 * forms / 2);
+}
+
 // What is left of the energy of a face when its inside is eliminated: by Schur, S = A_oo - A_oi A_ii^-1 A_io.
 struct ElementForms::Condensed {
   MatrixXd S;
@@ -43,15 +50,6 @@ ElementForms::ElementForms(const mesh::HalfEdges& half_edges, std::vector<mesh::
       classes_(classes),
       natural_(natural),
       reference_(reference_element(order)) {}
-
-// The factor, and the entries that it is made of: T triangles take about 45 p^2 T log2 T bytes.
-std::int64_t ElementForms::bytes() const {
-  constexpr double kFactor = 50, kCopies = 4;
-  const double count = faces(), p = reference_.order;
-  const auto rows = static_cast<double>(unknowns()) + count * reference_.inner();
-  return static_cast<std::int64_t>(kFactor * p * p * count * std::log2(count + 1) +
-                                   kCopies * 8 * rows * classes_.form_count);
-}
 
 std::vector<int> ElementForms::families() const {
   std::vector<int> result{natural_};

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <vector>
 
 #include "base/execution.h"
@@ -15,6 +14,9 @@
 #include "solver/laplace_solver.h"
 
 namespace holomorph::elements {
+
+/// An estimate of the memory that ElementForms::solve takes, as measured and rounded up, in bytes.
+double bytes(double faces, int order, int forms);
 
 class ElementForms {
  public:
@@ -39,9 +41,6 @@ class ElementForms {
   /// so tells where it comes from.
   std::vector<double> gaps(const forms::RowMajorMatrix& functions, const std::vector<Eigen::MatrixXd>& gram,
                            Execution& execution) const;
-
-  /// An estimate of the memory that `solve` takes, as measured and rounded up, in bytes.
-  std::int64_t bytes() const;
 
  private:
   struct Condensed;

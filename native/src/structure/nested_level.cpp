@@ -1,20 +1,15 @@
 #include "structure/nested_level.h"
 
-#include <string>
 #include <utility>
 
 #include "elements/element_forms.h"
 #include "mesh/components.h"
 #include "mesh/delaunay.h"
-#include "structure/memory_plan.h"
 #include "structure/structure.h"
 #include "topology/integer_forms.h"
 
 namespace holomorph::structure {
 namespace {
-
-// Elements take no more where no limit is set: 8 GB.
-constexpr std::int64_t kMostBytes = 8'000'000'000;
 
 using mesh::edge_of;
 using mesh::HalfedgeHandle;
@@ -118,7 +113,7 @@ std::vector<double> length_errors(const mesh::Surface& surface) {
 }
 
 NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, int natural, int order,
-                        std::int64_t memory_limit, Execution& execution) {
+                        Execution& execution) {
   NestedLevel level;
   execution.stage("refined triangulation", 0.0, 0.2);
   const auto triangulation = delaunay(surface, execution);
@@ -132,9 +127,6 @@ NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, 
   write_triangulation(triangulation.half_edges, classes, level);
 
   const elements::ElementForms forms(triangulation.half_edges, face_weights(triangulation), classes, natural, order);
-  require_memory("elements of order " + std::to_string(order) + " on " + std::to_string(level.triangles.size()) +
-                     " triangles, for bounds,",
-                 forms.bytes(), memory_limit > 0 ? memory_limit : kMostBytes);
   execution.stage("refined forms", 0.2, 0.8);
   level.functions = forms.solve(execution);
   execution.stage("refined bounds", 0.8, 1.0);

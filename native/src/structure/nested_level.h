@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <vector>
 
 #include "base/execution.h"
@@ -34,10 +33,9 @@ struct NestedLevel {
 
 /// Solves for the forms of these classes by elements of order p.
 /// @param natural how many of the classes are natural; the others are Dirichlet
-/// @param memory_limit bytes; 0: 8 GB
-/// @throws SolverError, where the limit does not hold the system, too; Cancelled
+/// @throws SolverError, Cancelled
 NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& classes, int natural, int order,
-                        std::int64_t memory_limit, Execution& execution);
+                        Execution& execution);
 
 /// #T, by what part rounding its lengths may change energies on each triangle of a surface.
 std::vector<double> length_errors(const mesh::Surface& surface);

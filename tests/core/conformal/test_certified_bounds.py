@@ -81,7 +81,7 @@ def test_the_area_of_a_square_tiled_surface(name, is_jittered):
     c = periods(structure, flat, dz)
     for order in (None, *ORDERS):
         if order is not None:
-            level = _native.solve_level(native.surface(), native.side_classes(), len(W), order, 1, 0, None)
+            level = _native.solve_level(native.surface(), native.side_classes(), len(W), order, 1, None)
             native.narrow(level.energies.gram, level.energies.certain, metric_error=level.errors.max())
         for x in (c.real, c.imag):
             lower = energy(native.inverse_gram_bounds()[0], W.T @ x)
@@ -128,7 +128,7 @@ def test_any_functions_give_bounds(order, noise):
     mesh = families.block_with_holes(2, refine=2, jitter=0.2)
     structure = conformal_structure(surface_of(mesh))
     native, classes = structure._native, structure._native.side_classes()
-    level = _native.solve_level(native.surface(), classes, 4, order, 1, 0, None)
+    level = _native.solve_level(native.surface(), classes, 4, order, 1, None)
     moved = level.functions + noise * np.random.default_rng(1).standard_normal(level.functions.shape)
     above, (gram,) = _native.measure_level(native.surface(), classes, 4, order, moved).certain, level.energies.gram
     if order == 1:

@@ -17,7 +17,7 @@ ROUNDING = 1e-12  # relative
 def level_of(surface, classes, order):
     """A native level, and its forms."""
     count = classes.shape[1] // 3
-    return _native.solve_level(surface, classes, count, order, 1, 0, None), count
+    return _native.solve_level(surface, classes, count, order, 1, None), count
 
 
 def steps(faces, n):

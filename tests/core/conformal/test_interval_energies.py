@@ -22,7 +22,7 @@ def measured(mesh, noise):
     native, triangles = structure._native, surface._native.triangles
     classes = native.side_classes()
     count = 2 * surface.genus
-    functions = _native.solve_level(native.surface(), classes, count, 1, 1, 0, None).functions
+    functions = _native.solve_level(native.surface(), classes, count, 1, 1, None).functions
     random = np.random.default_rng(0)
     functions = functions + noise * random.standard_normal(functions.shape)
     energies = _native.measure(native.surface(), classes, count, functions)

@@ -111,7 +111,7 @@ def test_progress_is_told_by_level():
 def test_memory_limits_it():
     """The bounds of the levels before hold."""
     structure = conformal_structure(surface_of(GRADED["decagon"]), bounds=1e-8, memory_limit=1_000_000)
-    assert not structure.refinement.reached and "memory_limit is 1000000" in structure.refinement.reason
+    assert not structure.refinement.reached and "memory_limit" in structure.refinement.reason
     assert structure.refinement.levels[-1][1] < structure.refinement.levels[0][1] / 2
     assert structure.certificate.holds
 
@@ -125,7 +125,7 @@ def test_cones_too_sharp_for_layers_are_said():
 @pytest.mark.parametrize("seed", range(5))
 def test_triangles_are_counted_before_they_are_made(seed):
     native = conformal_structure(surface_of(families.block_with_holes(2)))._native
-    solved = _native.solve_level(native.surface(), native.side_classes(), 4, 1, 1, 0, None)
+    solved = _native.solve_level(native.surface(), native.side_classes(), 4, 1, 1, None)
     triangles = triangles_of_level(solved)
     layers = np.random.default_rng(seed).integers(-4, 5, triangles.corners.max() + 1).clip(0)
     assert count_with_layers(triangles, layers) == len(with_layers(triangles, layers).corners)

@@ -132,7 +132,7 @@ def test_forms_remain_what_they_are(n, order):
         assert (np.bincount(triangles.edges.ravel()) == 2).all()
         assert areas(triangles.sides).sum() == pytest.approx(1.2, rel=1e-13)
         assert np.abs(vertex_exponents(triangles) - 1).max() < 1e-9
-        solved = _native.solve_level(*surface_of_triangles(triangles), 2, order, 1, 0, None)
+        solved = _native.solve_level(*surface_of_triangles(triangles), 2, order, 1, None)
         assert np.abs(solved.energies.gram[0] - EXACT * n * n).max() < 1e-11 * n * n
         assert (solved.energies.certain[0].diagonal() >= EXACT.diagonal() * n * n).all()
         assert solved.gaps.sum() < 1e-11

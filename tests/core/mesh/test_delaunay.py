@@ -13,7 +13,7 @@ def test_of_both_diagonals_the_shorter_one_is_taken(angle):
     a, b, cosine = 1.0, 0.8, np.sin(angle)
     short, long = (np.sqrt(a * a + b * b - 2 * s * a * b * cosine) for s in (1, -1))
     for given in (short, long):
-        level = _native.solve_level(*torus_of_two([a, b, given]), 2, 1, 1, 0, None)
+        level = _native.solve_level(*torus_of_two([a, b, given]), 2, 1, 1, None)
         assert level.lengths[2] == pytest.approx(short, rel=1e-15)
 
 

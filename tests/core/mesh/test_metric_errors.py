@@ -14,7 +14,7 @@ NEAR = 0.1  # part of each bound that some true error exceeds
 
 
 def solved(surface, classes):
-    return _native.solve_level(surface, classes, 2, 1, 1, 0, None)
+    return _native.solve_level(surface, classes, 2, 1, 1, None)
 
 
 def sides(level):
