@@ -7,10 +7,9 @@ from .. import native, preferences
 from ..operators import drag, follow
 from ..operators.dials import HOLOMORPH_OT_quarter
 from ..operators.dials_view import dial, draw_texture, row
-from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
+from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_stop, HOLOMORPH_OT_tile
 from ..operators.mixins import CONVERT, CONVERTIBLE, WorkOperator
 from ..operators.properties import FORMS, UNLINED
-from ..operators.stop import HOLOMORPH_OT_stop
 from ..operators.symmetric import HOLOMORPH_OT_make_symmetric
 from ..overlays import overlay
 from ..scene import stored_dials

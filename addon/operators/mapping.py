@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that make maps: the button, islands, seamless tilings. They have the same dials."""
+"""The operators that make maps: the button, islands, seamless tilings. They have the same dials; one stops them."""
 
 import bpy
 
@@ -96,6 +96,22 @@ class HOLOMORPH_OT_tile(_MapsOperator, bpy.types.Operator):
     asked = {"main": "SEAMLESS"}
 
 
+class HOLOMORPH_OT_stop(bpy.types.Operator):
+    """Stop, and leave everything as it was"""
+
+    bl_idname = "uv.holomorphic_stop"
+    bl_label = "Stop"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, _context):
+        return WorkOperator.running is not None
+
+    def execute(self, _context):
+        WorkOperator.running.watch.cancel()
+        return {"FINISHED"}
+
+
 @bpy.app.handlers.persistent
 def _forget_solves(*_arguments):
     """Drops the solves that were kept for the old file: another file has other meshes."""
@@ -107,7 +123,7 @@ def _forget_solves(*_arguments):
 
 
 _register, _unregister = bpy.utils.register_classes_factory(
-    [HOLOMORPH_OT_maps, HOLOMORPH_OT_islands, HOLOMORPH_OT_tile]
+    [HOLOMORPH_OT_maps, HOLOMORPH_OT_islands, HOLOMORPH_OT_tile, HOLOMORPH_OT_stop]
 )
 
 
