@@ -69,10 +69,10 @@ def narrow(native, width, most_faces, threads, memory_limit, progress=None):
             rounding = float(solved.errors.max())
             if solved.mollification or rounding >= OPEN:
                 raise SolverError("triangles are too thin for bounds that are certain")
+            _take_narrower(native, solved.energies, rounding)
         except SolverError as error:  # the bounds of the levels before hold
             reason = str(error)
             break
-        _take_narrower(native, solved.energies, rounding)
         triangles = triangles_of_level(solved)
         levels.append((len(triangles.corners), _width(native)))
         orders.append(order)

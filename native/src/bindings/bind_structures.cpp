@@ -184,7 +184,8 @@ void bind_invariants(py::class_<Structure, StructurePointer>& type) {
       .def(
           "narrow",
           [](Structure& s, std::vector<Eigen::MatrixXd> gram, std::vector<Eigen::MatrixXd> certain, double metric) {
-            s.value = structure::narrowed(std::move(s.value), {std::move(gram), std::move(certain)}, metric);
+            // On a copy: where these energies are refused, the structure stays as it was.
+            s.value = structure::narrowed(s.value, {std::move(gram), std::move(certain)}, metric);
           },
           py::arg("gram"), py::arg("certain"), py::arg("metric_error"))
       .def("flip_count", [](const Structure& s) { return s.value.record.flip_count; })

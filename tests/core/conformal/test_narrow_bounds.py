@@ -5,7 +5,7 @@ import flat_cones
 import numpy as np
 import pytest
 from equivalence import distance_or_mirrored
-from holomorph import TopologyError, _native, conformal_structure
+from holomorph import SolverError, TopologyError, _native, conformal_structure
 from holomorph.forms.narrow_bounds import count_with_layers, triangles_of_level
 from holomorph.forms.refined_triangles import with_layers
 from shared_data import complex_matrix, reference_values, shared_folder
@@ -129,3 +129,13 @@ def test_triangles_are_counted_before_they_are_made(seed):
     triangles = triangles_of_level(solved)
     layers = np.random.default_rng(seed).integers(-4, 5, triangles.corners.max() + 1).clip(0)
     assert count_with_layers(triangles, layers) == len(with_layers(triangles, layers).corners)
+
+
+def test_energies_that_are_refused_leave_the_structure():
+    """Those below the exact ones: their bounds cross."""
+    structure = conformal_structure(surface_of(GRADED["octagon"]))
+    native, periods = structure._native, structure.period_matrix.copy()
+    too_small = [0.1 * gram for gram in native.gram_matrices()]
+    with pytest.raises(SolverError, match="cross"):
+        native.narrow(too_small, too_small, metric_error=0.0)
+    assert (native.period_matrix() == periods).all() and len(native.side_classes()) == 8
