@@ -112,7 +112,7 @@ def report():
     }
     asked = {
         **dict.fromkeys(("tiles", "density", "turn", "evenness"), number),
-        "size": (row(), row(number, count, (None, number), (None, pair))),
+        "size": (row(), row(number, count, (None, number), (None, pair), number)),
         "poles": ("auto", count, [count]),
         "lattice": lattice,
         "direction": ("upright", None, row(number, number, number)),

@@ -119,9 +119,10 @@ def automatic_maps(
 ) -> list[Map | Refusal]:
     """The `Map` of each part of a mesh, or the error that says why it cannot be made.
 
-    The median densities of tilings differ by a tenth at most from that of the largest part, which is made first. A part
-    on which whole tiles are too few for that, or have no room, gets another map, which `arrangement` scales. Small
-    parts are made side by side, and copies of one part once. Vertices are those of the mesh as given.
+    The median densities of tilings differ by a tenth at most from that of the largest part, which is made first, or by
+    up to a fifth where other maps cost more. A part on which whole tiles are too few for that, or have no room, gets
+    another map, which `arrangement` scales. Small parts are made side by side, and copies of one part once. Vertices
+    are those of the mesh as given.
 
     Parameters
     ----------

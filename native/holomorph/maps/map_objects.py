@@ -48,9 +48,10 @@ def map_objects(
 ) -> list[MappedParts]:
     """The maps of the parts of each object, with squares of one size over all of them.
 
-    The median densities of tilings differ by a tenth at most from that of the largest part, which is made first. A part
-    on which whole tiles are too few for that, or have no room, gets another map, which `arrangement` scales. Small
-    parts are made side by side, and copies of one part once. What has no map, also for want of memory, gets the error.
+    The median densities of tilings differ by a tenth at most from that of the largest part, which is made first, or by
+    up to a fifth where other maps cost more. A part on which whole tiles are too few for that, or have no room, gets
+    another map, which `arrangement` scales. Small parts are made side by side, and copies of one part once. What has
+    no map, also for want of memory, gets the error.
     """
     requests = [request for parts in objects for request in parts]
     made, leader, others = _map_parts(requests, _alike(objects, progress), size, threads, progress)
@@ -158,8 +159,9 @@ def _sized(requests, alike, searches, size, threads, progress):
         density = made[names[leader]].density / alike[leader].scale ** 2
     wanted = {names[k]: _on_first(density, alike[k]) for k in reversed(members) if names[k] not in made}
     window = size.window or (window_around() if leader is None else None)
-    more, window = _of_one_size(requests, searches, wanted, areas, window, threads, scaled(progress, share, 1.0))
-    others = SizePolicy(density, tolerance=0.0, window=window)
+    asked = replace(size, window=window)
+    more, window = _of_one_size(requests, searches, wanted, areas, asked, threads, scaled(progress, share, 1.0))
+    others = SizePolicy(density, tolerance=0.0, window=window, near=size.near)
     made |= more
     return _Sized({k: made[names[k]] for k in members}, leader, others)
 
@@ -179,7 +181,7 @@ def _leaders(requests, names):
     return sorted((k for k in areas if areas[k] >= LEADING * max(areas.values())), key=lambda k: (-areas[k], k))
 
 
-def _of_one_size(requests, searches, wanted, areas, window, threads, progress):
+def _of_one_size(requests, searches, wanted, areas, size, threads, progress):
     """({(part, scale): its map or how it is refused}, the window) for densities by these. One of each part is tried
     before the others: it places the poles for all."""
     leading = list({name[0]: name for name in wanted}.values())
@@ -201,10 +203,10 @@ def _of_one_size(requests, searches, wanted, areas, window, threads, progress):
         for name, each in found.items()
         if not isinstance(each, Exception)
     }
-    window = window or best_window(list(sizes.values()), [areas[name] for name in sizes])
+    window = size.window or best_window(list(sizes.values()), [areas[name] for name in sizes])
 
     def fitted(name, step):
-        return searches[name[0]].fitted(found[name], wanted[name], window, step)
+        return searches[name[0]].fitted(found[name], wanted[name], window, size.near, step)
 
     return done(list(found), fitted, TRYING, 1.0), window
 

@@ -158,14 +158,17 @@ class MapSearch:
             return best
         return self._untiled.islands(best.cost, progress) or best
 
-    def fitted(self, found: Sequence[Map] | Refusal, density: float, window: Window, progress: Progress | None) -> Map:
+    def fitted(
+        self, found: Sequence[Map] | Refusal, density: float, window: Window, near: float, progress: Progress | None
+    ) -> Map:
         """The tiling of `maps` that is in the window, or stretched to the density, or turned until it is in the
-        window; else the best other map. What is asked for explicitly, such as poles that are chosen or moved, is
-        made with another density. Raises what refuses it."""
+        window; else the best other map, or a tiling whose density is as near as `SizePolicy.near` says. What is asked
+        for explicitly, such as poles that are chosen or moved, is made with another density. Raises what refuses
+        it."""
         with self._budget:
-            return self._fitting(found, density, window, progress)
+            return self._fitting(found, density, window, near, progress)
 
-    def _fitting(self, found, density, window, progress):
+    def _fitting(self, found, density, window, near, progress):
         if isinstance(found, Exception):
             if self._tilings.is_strict or not isinstance(found, REFUSALS):
                 raise found
@@ -176,18 +179,26 @@ class MapSearch:
             return self._in_pieces(None, density, 0, EXACT, progress) or made
         if not made.tiling:
             return made
-        if made.turns != 1 and not inside and not self._tilings.is_strict:
-            return self._less_bound(made.tiling, density, window, progress)
-        made = self._tilings.moved(inside or found, density, True, progress)
-        return made if inside else self._fitted(made, density, window, progress)
+        if inside or self._tilings.is_strict:
+            made = self._tilings.moved(inside or found, density, True, progress)
+            return made if inside else self._tilings.stretched(made, density) or made
+        if made.turns != 1:
+            others = [self._less_bound(made, density, window, near, progress)]
+        elif fitting := self._fitted(made, density, window, progress):
+            return fitting
+        else:
+            others = [self._untiled.best(TOO_FEW, progress), self._untiled.one_island(made.tiling, TOO_FEW)]
+        close = [one for one in found if abs(relative_size(one, density) - 1) <= near]
+        return min(filter(None, others + close), key=lambda one: one.cost + _missed(one, density, window))
 
-    def _less_bound(self, tiling, density, window, progress):
+    def _less_bound(self, made, density, window, near, progress):
         """As `fitted`, of maps without lines, or of those that do not turn: these have more sizes."""
-        less = {"lines": "none"} if tiling.lines != "none" else {"turns": 1, "lattice": LATTICE[tiling.turns]}
+        has_lines = made.tiling.lines != "none"
+        less = {"lines": "none"} if has_lines else {"turns": 1, "lattice": LATTICE[made.turns]}
         request = replace(self._request, structure=self._structure, options={**self._request.options, **less})
         search = MapSearch(request, self._threads, budget=self._budget)
         found = search.maps(density, TRIES, False, scaled(progress, 0.0, 0.5))
-        return search.fitted(found, density, window, scaled(progress, 0.5, 1.0))
+        return search.fitted(found, density, window, near, scaled(progress, 0.5, 1.0))
 
     def about(self, density: float, tries: int, progress: Progress | None) -> Map:
         """The map whose density is the nearest that this many numbers of tiles give."""
@@ -195,14 +206,12 @@ class MapSearch:
         return self._tilings.moved(found, density, tries > 1, progress) if found[0].tiling else found[0]
 
     def _fitted(self, made, density, window, progress):
+        """The tiling stretched to the density, or turned until it is in the window; None where it is neither."""
         stretched = self._tilings.stretched(made, density)
-        if stretched and not self._has_rival(stretched, progress) or self._tilings.is_strict:
-            return stretched or made
+        if stretched and not self._has_rival(stretched, progress):
+            return stretched
         turned = self._tilings.turned(density, progress)
-        if turned and is_in(window, relative_size(turned, density)):
-            return turned
-        found, one = self._untiled.best(TOO_FEW, progress), self._untiled.one_island(made.tiling, TOO_FEW)
-        return one if one and one.cost < found.cost else found
+        return turned if turned and is_in(window, relative_size(turned, density)) else None
 
     def _has_rival(self, made, progress):
         if self._request.main == "seamless" or not self._budget.goes_on():
@@ -229,3 +238,9 @@ class MapSearch:
         """Whether it may need no poles."""
         surface = self._request.surface
         return (surface.genus, surface.boundary_count) in ((0, 2), (1, 0))
+
+
+def _missed(made, density, window):
+    """The cost of squares of another size than on other parts: as between those of one part (`appearance`)."""
+    size = relative_size(made, density)
+    return abs(math.log(size)) if made.is_tiled and not is_in(window, size) else 0.0

@@ -29,12 +29,14 @@ class SizePolicy:
     tolerance : relative amount by which its median density may differ from the wanted one; None for any, and 0 where no
         part leads, as other meshes have that density
     window : of the other parts, over the density of the leading one; None for the one that holds most of them
+    near : relative amount by which tilings may miss it where other maps cost more by as much
     """
 
     density: float
     tries: int = TRIES
     tolerance: float | None = None
     window: Window | None = None
+    near: float = TOLERANCE
 
     @classmethod
     def of(
@@ -51,7 +53,8 @@ class SizePolicy:
         if real_number(tolerance, "density_tolerance") < 0:
             raise ValueError(f"density_tolerance is {quoted(tolerance)}; it cannot be negative")
         if density is not None:
-            return cls(real_number(density, "density", positive=True), tolerance=tolerance)
+            wanted = real_number(density, "density", positive=True)
+            return cls(wanted, tolerance=tolerance, near=min(tolerance, TOLERANCE))
         tiles = tiles and real_number(tiles, "tiles", positive=True)
         area = sum(part.area for part in parts) if tiles else 0.0
         wanted = tiles / area if area > 0 else usual_density(parts)

@@ -9,7 +9,7 @@ from holomorph.maps.budget import Budget
 from holomorph.maps.map import Map
 from holomorph.maps.map_objects import map_objects
 from holomorph.maps.request import Request
-from holomorph.maps.size import LIKE_SIZE, SizePolicy, best_window, is_in, window_around
+from holomorph.maps.size import LIKE_SIZE, TOLERANCE, SizePolicy, best_window, is_in, window_around
 from holomorph.maps.tiling_search import MOST_STRETCHED, UNEVEN, TilingSearch, stretched
 from holomorph.quality.distortion import drawn_densities
 from solved import surface_of
@@ -34,7 +34,7 @@ def test_the_window_holds_the_wanted_density_and_most_by_weight():
     assert is_in(best_window(sizes, [1.0, 1.0, 2.5, 9.0]), 1.06)
 
 
-@pytest.mark.parametrize("options", [{}, {"tiles": 150.0}, {"density": 5.0}], ids=["default", "tiles", "density"])
+@pytest.mark.parametrize("options", [{}, {"tiles": 150.0}, {"density": 12.0}], ids=["default", "tiles", "density"])
 @pytest.mark.parametrize("main", ["automatic", "seamless"])
 def test_all_parts_have_one_size(main, options):
     balls = [families.geodesic_sphere(3) for _ in range(3)]
@@ -55,10 +55,27 @@ def test_parts_have_one_size_in_the_triangles_that_are_drawn(seed):
         parts.append(families.torus(*random.integers(5, 12, 2), R=large, r=small, jitter=0.3, seed=k))
         parts[-1].vertices[:] += (4 * k, 0, 0)
     whole = surface_of(families.united(*parts))
-    maps = automatic_maps(whole, main="seamless")
+    maps = automatic_maps(whole, main="seamless", tiles=1000)
     uv = arranged(maps, len(whole.corner_vertices))
     found = [drawn_densities(part, uv[part.corner_index])[1] for part in whole.components]
     assert max(found) <= LIKE * min(found)
+
+
+def torus(scale):
+    return surface_of(families.torus(24, 12, R=scale, r=0.35 * scale))
+
+
+@pytest.mark.parametrize("scale", [0.9, 0.93, 0.95])
+def test_squares_of_nearly_one_size_are_preferred_to_a_seam(scale):
+    """Whole tiles on this torus have densities a third apart."""
+    parts = [torus(1.0), torus(scale)]
+    first, second = automatic_maps(parts, density=8.77)
+    missed = second.density / first.density
+    assert first.kind == second.kind == "tiling" and abs(missed - 1) <= TOLERANCE and not is_in(window_around(), missed)
+    assert second.cost + abs(np.log(missed)) <= automatic_map(parts[1], main="untiled").cost
+    requests, size = [Request(part) for part in parts], SizePolicy.of(parts, density=first.density, tolerance=0.05)
+    (((_, exact), _),) = map_objects([requests], size)
+    assert not exact.is_tiled
 
 
 @pytest.mark.parametrize("factor", [0.8, 1 / MOST_STRETCHED, 1.3])
@@ -118,7 +135,7 @@ def test_what_jumps_both_ways_or_would_be_stretched_too_far_is_not():
 
 @pytest.mark.parametrize("size", [{}, {"tiles": 300.0}, {"density": 6.0}], ids=["default", "tiles", "density"])
 def test_each_object_alone_gets_the_maps_that_it_has_beside_others(size):
-    objects = [[limb(0.5), limb(0.4)], [limb()], [limb(0.8), surface_of(families.geodesic_sphere(3))]]
+    objects = [[limb(0.5), limb(0.4)], [limb()], [limb(0.8), surface_of(families.geodesic_sphere(3))], [torus(0.5)]]
     requests = [[Request(part) for part in parts] for parts in objects]
     together = map_objects(requests, SizePolicy.of([part for parts in objects for part in parts], **size))
     assert sum(made.is_tiled for found in together for made in found.maps) > 2
