@@ -136,7 +136,7 @@ MeromorphicForm PoleSearch::pruned(MeromorphicForm form) {
 }
 
 MeromorphicForm PoleSearch::hidden(MeromorphicForm form) {
-  if (basis_.surface().intrinsic() || form.poles.empty() || basis_.has_jacobian()) return form;
+  if (basis_.surface().intrinsic() || form.poles.empty()) return form;
   begin_hiding(form.poles, kWorthHiding * form.objective,
                kHiding * form.objective / static_cast<double>(form.poles.size()));
   sweep(form);
