@@ -1,14 +1,17 @@
 #include "turns/cones.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <random>
 #include <tuple>
 #include <utility>
 
 #include "base/errors.h"
+#include "mesh/ambient_occlusion.h"
 #include "turns/cone_places.h"
 #include "turns/scale_form.h"
 
@@ -29,6 +32,7 @@ constexpr int kMostAround = 480;           // around all
 constexpr int kMovesAtOnce = 16;           // between two looks at whether the search is cancelled
 // Operations for two candidates: in each move, and for each loop.
 constexpr double kPair = 2, kProduct = 0.25;
+constexpr double kSeen = 3;     // price of a cone that is seen from everywhere, beside that of one that is hidden
 constexpr double kGain = 1e-9;  // a move lowers the cost by more
 // Rounds: the distance of candidates from their cone, in spacings of the first ones; part of kHandles.
 struct Round {
@@ -46,6 +50,10 @@ double price_of(int n) {
   return size * (size + 1) / 2;
 }
 
+std::optional<std::array<double, 3>> up_of(const std::optional<Along>& along) {
+  return along && !along->is_of_u ? std::optional(along->vector) : std::nullopt;
+}
+
 class Search {
  public:
   Search(const mesh::Surface& surface, const Net& net, const ConeOptions& options, Execution& execution,
@@ -54,7 +62,8 @@ class Search {
         net_(net),
         options_(options),
         on_(surface, net, std::move(patch)),
-        form_(net, options.k) {
+        form_(net, options.k),
+        exposure_(surface, up_of(options.along)) {
     most_ = options.k == 1 ? 0 : options.k == 2 ? 1 : 2;
     least_ = -options.k;
     spacing_ = std::sqrt(net.whole_area / kCandidates);
@@ -182,13 +191,18 @@ class Search {
     const double between = options_.k == 2 ? 0.5 : options_.k == 4 ? std::sqrt(0.5) : 1.075;
     near_ = on_.near(places_, std::pow(kApart * between, 2) * net_.whole_area / options_.tiles);
     form_.take(places_, [&] { execution_.report(part_); });
+    exposure_.prepare(places_, execution_.workers());
+    prices_.resize(std::ssize(places_));
+    for (Eigen::Index i = 0; i < prices_.size(); ++i) {
+      const int v = places_[i];
+      prices_[i] = on_.is_hole(v) ? 0 : options_.price * (1 + kSeen * exposure_(v));
+    }
   }
 
   // Unit moves n_i + 1, n_j - 1, and jumps of a whole cone, the best of all while it lowers the cost.
   void search(double price_part, double handles_part) {
     const double kappa =
         on_.have_patches() ? 0 : kHandles * handles_part;  // the field of the patches says how handles turn
-    const double price = options_.price * price_part;
     const auto count = static_cast<Eigen::Index>(places_.size());
     const MatrixXd &flux = form_.flux(), Q = form_.Q() + kappa * flux.transpose() * flux;
     Execution::count(kProduct * static_cast<double>(count * count * flux.rows()));
@@ -209,7 +223,7 @@ class Search {
       }
       r = Q * n - b;
       for (Eigen::Index i = 0; i < count; ++i) {
-        const double p = on_.is_hole(places_[i]) ? 0 : price;
+        const double p = price_part * prices_[i];
         const auto change = [&](int by) {
           if (!may_be(i, by) || (n_[i] == 0 && crowds[i] > 0)) return kInfinite;
           return 2 * by * r[i] + diagonal[i] + p * (price_of(n_[i] + by) - price_of(n_[i]));
@@ -235,7 +249,8 @@ class Search {
         for (Eigen::Index i = 0; i < count; ++i) {
           if (n_[i] != 0 || on_.is_hole(places_[i]) || crowds[i] > (are_near(i, j) ? 1 : 0)) continue;
           if (!are_together(i, j)) continue;
-          const double change = 2 * w * (r[i] - r[j]) + w * w * (diagonal[i] + diagonal[j] - 2 * Q(i, j));
+          const double change = 2 * w * (r[i] - r[j]) + w * w * (diagonal[i] + diagonal[j] - 2 * Q(i, j)) +
+                                price_part * (prices_[i] - prices_[j]) * price_of(w);
           if (change < best) best = change, to = i, from = j, carried = w;
         }
       }
@@ -271,7 +286,7 @@ class Search {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       result.missing[places_[i]] = n_[i];
       n[static_cast<Eigen::Index>(i)] = n_[i];
-      if (!on_.is_hole(places_[i])) result.cost += options_.price * price_of(n_[i]);
+      result.cost += prices_[static_cast<Eigen::Index>(i)] * price_of(n_[i]);
     }
     result.cost += form_.constant() + n.dot(form_.Q() * n - 2 * form_.b());
     return result;
@@ -292,6 +307,8 @@ class Search {
   const ConePlaces on_;
   ScaleForm form_;
   std::vector<int> spread_, places_, n_;
+  VectorXd prices_;  // of a cone of one k-th turn at each candidate
+  mesh::AmbientOcclusion exposure_;
   std::vector<std::vector<std::size_t>> near_;  // to each candidate, ascending
   int most_ = 0, least_ = 0;
   double spacing_ = 0;

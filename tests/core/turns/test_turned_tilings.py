@@ -5,7 +5,7 @@ from dataclasses import replace
 import families
 import numpy as np
 import pytest
-from holomorph import Cancelled, Surface, TopologyError, automatic_map, automatic_structure
+from holomorph import Cancelled, Surface, TopologyError, _native, automatic_map, automatic_structure
 from holomorph.quality.quality import Quality
 from solved import surface_of
 from turned_jumps import jump_errors
@@ -255,3 +255,13 @@ def test_the_hexagons_of_a_ball():
     assert not found.flipped.any() and len(made.cones) == 12
     named = tiling(surface_of(families.geodesic_sphere(6)), 6, tiles=200.0, lattice="hex")
     assert np.array_equal(named.uv, made.uv)
+
+
+def test_cones_that_cost_much_lie_where_they_are_seen_least():
+    """Below, on what is seen from above; the cones of the thorns are as many at the top as at the bottom."""
+    surface = surface_of(bumps())
+    for up in (1, -1):
+        options = {"direction": [0, 0, up], "is_of_u": False, "tiles": 300, "lines": [], "whole_lines": False}
+        maps = _native.TurnedMaps(surface._native, turns=4, price=2e-3, chosen=[], **options)
+        *_, cones, _ = _native.turned_map(maps, tiles=300, evenness=0.0, threads=1, progress=None)
+        assert up * surface.vertices[cones, 2].mean() < -0.3

@@ -7,13 +7,13 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "mesh/ambient_occlusion.h"
 #include "mesh/make_surface.h"
 #include "mesh/surface_walk.h"
 #include "structure/pole_structure.h"
 #include "tiling/greens/greens_functions.h"
 #include "tiling/inversion/abel_jacobi.h"
 #include "tiling/maps/assemble.h"
-#include "tiling/poles/ambient_occlusion.h"
 #include "tiling/poles/candidate_scores.h"
 #include "tiling/poles/meromorphic_form.h"
 #include "tiling/rounding/rounding.h"
@@ -181,7 +181,7 @@ TEST(AmbientOcclusion, IsAllOutsideAndLessInsideOfARing) {
   std::vector<int> vertices;
   for (int v = 0; v < surface->vertex_count; v += 7) vertices.push_back(v);
   Execution one(1), two(2);
-  AmbientOcclusion exposure(*surface), other(*surface);
+  mesh::AmbientOcclusion exposure(*surface), other(*surface);
   exposure.prepare(vertices, one.workers());
   other.prepare(vertices, two.workers());
   double inside = 0, outside = 1;

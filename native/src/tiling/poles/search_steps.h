@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/task_progress.h"
-#include "tiling/poles/ambient_occlusion.h"
+#include "mesh/ambient_occlusion.h"
 #include "tiling/poles/candidate_scores.h"
 #include "tiling/poles/mirror.h"
 #include "tiling/poles/pole_candidates.h"
@@ -60,9 +60,9 @@ class SearchSteps {
   std::vector<MeromorphicForm> all_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors);
 
   CandidateScores scores_;
-  std::optional<AmbientOcclusion> exposure_;  // while poles are hidden
-  double weight_ = 0;                         // of its mean, beside the objective
-  double share_ = 0, limit_ = 0;              // by what the objective may grow for a pole, and up to which it may now
+  std::optional<mesh::AmbientOcclusion> exposure_;  // while poles are hidden
+  double weight_ = 0;                               // of its mean, beside the objective
+  double share_ = 0, limit_ = 0;  // by what the objective may grow for a pole, and up to which it may now
 };
 
 }  // namespace holomorph::tiling

@@ -1,11 +1,12 @@
-#include "tiling/poles/ambient_occlusion.h"
+#include "mesh/ambient_occlusion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/chunks.h"
 
-namespace holomorph::tiling {
+namespace holomorph::mesh {
 namespace {
 
 using Eigen::Vector3d;
@@ -23,10 +24,12 @@ Vector3d direction(int i) {
 
 }  // namespace
 
-AmbientOcclusion::AmbientOcclusion(const mesh::Surface& surface)
-    : surface_(surface), tree_(surface), normals_(surface.vertex_count, Vector3d::Zero()) {
+AmbientOcclusion::AmbientOcclusion(const Surface& surface, const std::optional<std::array<double, 3>>& up)
+    : surface_(surface), tree_(surface), normals_(surface.vertex_count, Vector3d::Zero()), weights_(kRays, 1) {
+  for (int i = 0; up && i < kRays; ++i)
+    weights_[i] = std::clamp(0.5 + direction(i).dot(Vector3d(up->data())), 0.0, 1.0);
   double area = 0;
-  for (const mesh::Triple& t : surface.triangles) {
+  for (const Triple& t : surface.triangles) {
     std::array<Vector3d, 3> p;
     for (int i = 0; i < 3; ++i) p[i] = Vector3d(surface.polygons.vertices[t[i]].data());
     const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]) / 2;
@@ -56,9 +59,9 @@ double AmbientOcclusion::found(int vertex) const {
     const double cosine = ray.dot(normal);
     if (cosine < kLowest) continue;
     all += cosine;
-    if (!tree_.meets(start, ray, 0)) open += cosine;
+    if (weights_[i] > 0 && !tree_.meets(start, ray, 0)) open += weights_[i] * cosine;
   }
   return all > 0 ? open / all : 1;
 }
 
-}  // namespace holomorph::tiling
+}  // namespace holomorph::mesh
