@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/chunks.h"
+#include "base/execution.h"
 
 namespace holomorph::mesh {
 namespace {
@@ -13,6 +14,7 @@ using Eigen::Vector3d;
 
 constexpr int kRays = 128;         // over the whole sphere, of which half are above a vertex
 constexpr double kLowest = 0.1;    // least cosine with the normal: lower rays meet the faces around the vertex
+constexpr double kRay = 1000;      // operations, about
 constexpr double kBegin = 0.0025;  // height above the vertex where rays begin, in square roots of the area
 
 // Direction i of a Fibonacci lattice on the sphere, nearly evenly spread.
@@ -45,6 +47,7 @@ void AmbientOcclusion::prepare(const std::vector<int>& vertices, Workers& worker
   for (const int v : vertices) {
     if (known_.emplace(v, 0).second) missing.push_back(v);
   }
+  Execution::count(kRay * kRays / 2 * static_cast<double>(missing.size()));
   std::vector<double> values(missing.size());
   run_throwing(workers, static_cast<int>(missing.size()), [&](int i) { values[i] = found(missing[i]); });
   for (std::size_t i = 0; i < missing.size(); ++i) known_[missing[i]] = values[i];

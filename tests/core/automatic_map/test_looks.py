@@ -73,9 +73,7 @@ MODELS = {
 LOOKS = {
     "pretzel": Looks("tiling", (0, 0), 2.4, 4.4, 1.25, (5.0, 5.9), "Fairly even, a fifth is upside down"),
     "knot": Looks("tiling", (0, 0), 1.6, 1.7, 1.12, (3.5, 4.3), "Even, a tenth is upside down"),
-    "torus": Looks(
-        "tiling", (3, 3), 2.8, 5.0, 1.3, (2.8, 3.6), "Fairly even, slightly sheared, a fifth is upside down"
-    ),
+    "torus": Looks("tiling", (3, 3), 2.8, 5.0, 1.3, (2.8, 3.6), "Fairly even, a fifth is upside down"),
     "thick torus": Looks(
         "tiling", (6, 6), 2.7, 8.4, 1.3, (3.3, 4.1), "Fairly even, slightly sheared, a tenth is upside down"
     ),
