@@ -26,7 +26,8 @@ TILING = 0.8  # part of the work, where pieces follow
 TOO_FEW = "too few whole tiles fit on it for squares of the wanted size"
 SHORT = "not all was tried, as it would take long"
 PIECES = 2.0  # times the budget, within which pieces follow a tiling: where there are hard edges they are often better
-FAR = 10.0  # times the budget: a tiling that is expected to take so long is not made where there is another map
+MILLIONTHS = 1e-3  # of a second that an operation takes, about
+FAR = 10.0  # times the budget: what takes longer is not tried where there is another map, however poor
 
 
 class MapSearch:
@@ -128,7 +129,8 @@ class MapSearch:
 
     def _quick(self, density, tries, progress):
         """The best of the maps that take less than a tiling of the whole part."""
-        islands = self._untiled.islands(math.inf, scaled(progress, 0.0, 0.0))
+        work = self._tilings.expected_work * MILLIONTHS
+        islands = self._untiled.islands(math.inf, scaled(progress, 0.0, 0.0), work)
         best = min((made for made in (self._flat, islands) if made), key=lambda made: made.cost, default=None)
         return self._in_pieces(best, density, tries, window_around(), progress) or best
 
@@ -149,14 +151,15 @@ class MapSearch:
         """The one of least cost among these and the other maps of the whole part."""
         found = [made for made in (flat, tiling) if made]
         best = min(found, key=lambda made: made.cost, default=None)
-        if best and not self._budget.goes_on():
+        is_poor = best is None or best.cost >= POOR
+        if best and not self._budget.goes_on(times=FAR if is_poor else 1.0):
             return best
         best = self._untiled.balanced(best.cost if best else math.inf, why, progress) or best
         if best is None:
             return self._untiled.best(why, progress)
         if flat is not None and flat.cost <= GOOD:
             return best
-        return self._untiled.islands(best.cost, progress) or best
+        return self._untiled.islands(best.cost, progress, math.inf if is_poor else None) or best
 
     def fitted(
         self, found: Sequence[Map] | Refusal, density: float, window: Window, near: float, progress: Progress | None
