@@ -127,6 +127,7 @@ def _side(tiled):
 
 def sentence(relief, millimetres, work):
     """The sentence that tells of a relief. millimetres : in a unit of its positions; work : its `RaisingWork`"""
+    rounded = holomorph.core.value.rounded
     told = [f"{len(relief.triangles):,} triangles, {relief.depth * millimetres:.3g} mm deep"]
     if work.skipped:
         told.append(f"{work.skipped} parts without a tiling stay flat")
@@ -136,12 +137,11 @@ def sentence(relief, millimetres, work):
     if rows != columns:
         told.append(holomorph.tiles.relief.stretched_sentence(columns, rows))
     if relief.is_full:
-        told.append(
-            f"up to {relief.error * relief.depth * millimetres:.2g} mm off: allow more triangles to follow the picture"
-        )
+        off = relief.error * relief.depth * millimetres
+        told.append(f"up to {rounded(off)} mm off: allow more triangles to follow the picture")
     if len(relief.crossings):
         safe = relief.safe_depth * millimetres
         least = relief.depth * holomorph.tiles.relief.LEAST_PART * millimetres
-        told_of = f"up to {safe:.2g} mm deep it does not" if safe else f"at {least:.2g} mm it still does"
+        told_of = f"up to {rounded(safe)} mm deep it does not" if safe else f"at {rounded(least)} mm it still does"
         told.append(f"it crosses itself in {len(np.unique(relief.crossings)):,} triangles: {told_of}")
     return "; ".join(told)

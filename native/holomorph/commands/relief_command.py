@@ -5,6 +5,7 @@ import re
 import numpy as np
 
 from .. import Error, InvalidMesh, Map, Surface, TopologyError, automatic_maps
+from ..core.value import rounded
 from ..files import printing, whole_file
 from ..mesh.checks import check_options, real_number
 from ..tiles.height_image import height_image
@@ -151,7 +152,7 @@ def _told(made, refused, parts, depth):
     if made.is_full:
         off = made.error * depth
         sentences.append(
-            f"the limit on the triangles was reached: they are up to {off:.2g} mm off; see --most-triangles"
+            f"the limit on the triangles was reached: they are up to {rounded(off)} mm off; see --most-triangles"
         )
     return sentences
 
@@ -162,9 +163,9 @@ def _faults(made, parts, depth):
         sentences.append("the mesh is open, and so is the relief: it has no volume")
     if len(made.crossings):
         at = made.vertices[made.triangles[made.crossings[0, 0]]].mean(axis=0)
-        safe = made.safe_depth
-        least = f"up to {safe:.2g} mm deep it does not" if safe > 0 else f"at {LEAST_PART * depth:.2g} mm it still does"
+        safe, least = made.safe_depth, rounded(LEAST_PART * depth)
+        tried = f"up to {rounded(safe)} mm deep it does not" if safe > 0 else f"at {least} mm it still does"
         place = ", ".join(f"{x:.4g}" for x in at)
         count = len(np.unique(made.crossings))
-        sentences.append(f"it crosses itself in {count:,} triangles, the first near ({place}): {least}")
+        sentences.append(f"it crosses itself in {count:,} triangles, the first near ({place}): {tried}")
     return sentences

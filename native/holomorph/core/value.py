@@ -43,6 +43,16 @@ def counted(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
+def rounded(value: float) -> str:
+    """A number in two digits, without an exponent up to a million."""
+    return f"{float(f'{value:.2g}'):g}"
+
+
+def percent(part: float) -> str:
+    """A part of a whole, such as "38 %"."""
+    return "less than 0.01 %" if 0 < part < 1e-4 else f"{rounded(100 * part)} %"
+
+
 def quoted(value: object) -> str:
     """A wrong value as messages repeat it, on one line, in at most `LONGEST_QUOTATION` characters."""
     try:

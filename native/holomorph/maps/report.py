@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.value import plain
+from ..core.value import plain, rounded
 from ..forms.form_structure import CertifiedStructure
 from ..quality.quality import Quality
 from ..quality.verdicts import Seen, Verdict, baking, total_cost, verdict
@@ -262,7 +262,7 @@ def _words(maps, spread, left_out, repairs):
     elif maps[0].kind not in PLAIN:
         yield WORDS[maps[0].kind]
     if spread > SAME_SIZE:
-        yield f"squares differ in size between parts by a factor of {spread:.2g}"
+        yield f"squares differ in size between parts by a factor of {rounded(spread)}"
     told = sum(part["faces"] for part in left_out if NO_AREA not in part["reason"])
     if told:
         yield f"{told:,} faces left out" if told > 1 else "1 face left out"

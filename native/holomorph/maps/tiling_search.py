@@ -15,6 +15,7 @@ from .._native import InvalidMesh, SolverError, TopologyError
 from ..core import arrays
 from ..core.array_types import Progress
 from ..core.progress import scaled
+from ..core.value import percent
 from ..mesh.surface import Surface
 from ..quality.appearance import of_direction
 from ..quality.quality import Quality
@@ -264,9 +265,7 @@ class TilingSearch:
         made = self._structure.tile(poles=poles, surface=self.surface, progress=progress, **options)
         lost = made.quality.lost_part
         if not lost < MOST_LOST:
-            raise TopologyError(
-                f"it would lose {100 * lost:.2g} % of its area, as the mesh is too coarse: subdivide it"
-            )
+            raise TopologyError(f"it would lose {percent(lost)} of its area, as the mesh is too coarse: subdivide it")
         return Map.of_tiling(self.surface, self._structure, self._under_texture(made))
 
     def _under_texture(self, made):

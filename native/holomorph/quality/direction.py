@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core import arrays
 from ..core.array_types import Complexes, Reals
-from ..core.value import Value
+from ..core.value import Value, percent
 
 AXIS = {"Y": 1, "Z": 2}  # of positions, by `Surface.up`
 STEEP = 0.35  # least sine of the angle between the normal of a triangle and the vertical
@@ -115,7 +115,7 @@ class Direction(Value):
 
     def _facts(self):
         parts = {"upright": self.upright_part, "sideways": self.sideways_part, "upside down": self.upside_down_part}
-        return [f"{100 * part:.2g} % {name}" for name, part in parts.items()]
+        return [f"{percent(part)} {name}" for name, part in parts.items()]
 
 
 def uphill(triangulation: object, uv: Reals, axis: Sequence[float]) -> Complexes:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core import arrays
-from ..core.value import counted
+from ..core.value import counted, percent, rounded
 from .appearance import FLIPPED, cost, of_overlaps
 from .appearance import SHEAR as SHEAR_COST
 
@@ -134,7 +134,7 @@ def verdict(quality: Quality, seen: Seen = Seen()) -> Verdict:
         _seams(seen),
         SHEAR[_rank(shear, SHEARED)],
         quality.direction and quality.direction.words,
-        *(f"{_percent(part)} {name}" for name, part in losses.items() if part > LOST),
+        *(f"{percent(part)} {name}" for name, part in losses.items() if part > LOST),
         special(seen.poles, seen.turns, seen.cones, seen.lines),
         "the mesh is folded over itself" if seen.folded > FOLDED else None,
     ]
@@ -155,10 +155,10 @@ def baking(overlapping: float, tiled: float, used: float) -> Verdict:
         of the image that is covered
     """
     if tiled > 0:
-        where = "this one" if tiled > 1 - LOST else f"{_percent(tiled)} of this one"
+        where = "this one" if tiled > 1 - LOST else f"{percent(tiled)} of this one"
         return Verdict("fair", f"Press Bake Tiling for a second map: on {where}, tiles lie on top of each other")
-    rank, space = _rank(overlapping, OVERLAPPING), f"{_percent(used)} of the image is used"
-    overlaps = f"{_percent(overlapping)} of it overlaps" if rank else "Nothing overlaps"
+    rank, space = _rank(overlapping, OVERLAPPING), f"{percent(used)} of the image is used"
+    overlaps = f"{percent(overlapping)} of it overlaps" if rank else "Nothing overlaps"
     return Verdict(LEVELS[max(rank, int(used < USED))], f"{overlaps}, {space}")
 
 
@@ -208,8 +208,4 @@ def _seams(seen):
 
 def _factor(value):
     """A factor in few digits, for a person."""
-    return "over 1000" if value > 1000 else f"{float(f'{value:.2g}'):g}"
-
-
-def _percent(part):
-    return f"{100 * part:.2g} %"
+    return "over 1000" if value > 1000 else rounded(value)

@@ -13,7 +13,7 @@ from .. import _native
 from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import Integers, Progress
-from ..core.value import quoted
+from ..core.value import percent, quoted
 from ..mesh.checks import check_threads, checked_evenness, only_component, own_vertices, real_number
 from ..mesh.edges import are_among, boundary_edges
 from ..mesh.hard_edges import is_hard
@@ -113,7 +113,7 @@ class TurnedTiler:
             quality = quality.evened_from(Quality.of(self._component._native, before, self._threads), evenness)
         if quality.lost_part > MOST_LOST:
             raise TopologyError(
-                f"with {tiles:.4g} tiles that turn {100 * quality.lost_part:.3g} % of this surface would be "
+                f"with {tiles:.4g} tiles that turn {percent(quality.lost_part)} of this surface would be "
                 "flipped or collapse: take more tiles, or turns=1"
             )
         edges = self._component._native.edges

@@ -50,6 +50,9 @@ def test_what_overlaps_is_told_of_a_bake_alone():
     assert levels == ["good", "good", "fair", "poor", "unusable"]
     assert baking(0.02, 0.0, 0.9).sentence == "2 % of it overlaps, 90 % of the image is used"
     assert baking(0.0, 0.0, 0.1).level == "fair"
+    used = [baking(0.0, 0.0, part).sentence for part in (1.0, 0.9973, 0.0034, 7e-7)]
+    words = ("100 %", "100 %", "0.34 %", "less than 0.01 %")
+    assert used == [f"Nothing overlaps, {part} of the image is used" for part in words]
     lies = "tiles lie on top of each other"
     for part, where in ((1.0, "this one"), (0.25, "25 % of this one")):
         assert baking(0.0, part, 0.9).sentence == f"Press Bake Tiling for a second map: on {where}, {lies}"
