@@ -13,6 +13,8 @@ from numpy.typing import ArrayLike
 
 from ..core.value import plain, rounded
 from ..forms.form_structure import CertifiedStructure
+from ..mesh.cut_open import next_sides
+from ..mesh.hard_edges import cuts
 from ..quality.quality import Quality
 from ..quality.verdicts import Seen, Verdict, baking, total_cost, verdict
 from .arrangement import Arrangement, square
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
 
 SMALL_PART = 0.01  # part of the area of all parts: the size of squares on less is not told
 SAME_SIZE = 1.049  # largest over smallest side of squares of parts that is not seen: 10 % in area
+TORN = 0.01  # of the length of a side in the map: less of a jump across it is not seen
 NO_AREA = "area"  # in the reasons why faces are left out: of these nobody needs to know
 LISTED = 20  # elements of a repair that a report names
 WORDS = {
@@ -202,7 +205,7 @@ class Whole:
     mean_angle, size_range : as those of `Quality`, over all parts as they are arranged
     sizes : how many times as long squares of one part are as those of another at most
     unmapped_faces : number of faces without a map
-    seams : length of those in view over the root of the area, the mean over the parts
+    seams : length of those in view over the root of the area: the mean over the parts, and those between parts
     cost : of the maps of all parts together, see `appearance.cost`
     verdict, bake : the `Verdict`s on the maps of all parts together, see `verdict` and `baking`
     """
@@ -237,6 +240,8 @@ def whole(
     left_out = [part for part in parts if not part["done"]]
     blank = sum(part.get("area", 0.0) for part in left_out)
     seen = Seen.joined([made.seen for made in maps], areas, blank / (areas.sum() + blank or 1.0))
+    if areas.sum() > 0:
+        seen = seen.cut(*(length / math.sqrt(areas.sum()) for length in _cut_lengths(maps)))
     shown = sizes[(areas >= SMALL_PART * areas.sum()) & (sizes > 0)]
     spread = math.sqrt(shown.max() / shown.min()) if len(shown) else 1.0
     tiled = float(areas[[made.is_tiled for made in maps]].sum() / (areas.sum() or 1.0))
@@ -246,6 +251,28 @@ def whole(
     unmapped = sum(part["faces"] for part in left_out)
     figures = quality.mean_angle, quality.size_range, spread, unmapped, seen.seams, total_cost(quality, seen)
     return Whole(text, *figures, verdict(quality, seen), bake)
+
+
+def _cut_lengths(maps):
+    """(length in view, length that hard edges hide) of the edges at which the maps of parts that were cut break off."""
+    maps = [made for made in maps if made.surface.vertices is not None]
+    if not maps:
+        return 0.0, 0.0
+    parts, sides, lengths, in_view = cuts([made.surface for made in maps])
+    is_torn = parts[0] != parts[1]
+    for part in np.unique(parts[0, ~is_torn]):
+        both = np.flatnonzero(~is_torn & (parts[0] == part))
+        is_torn[both] = _are_torn(maps[part], *sides[:, both])
+    lengths = np.where(is_torn, lengths, 0.0)
+    return float(lengths @ in_view), float(lengths @ (1 - in_view))
+
+
+def _are_torn(made, one, other):
+    """(n,) whether UVs at sides of triangles differ from those at others, which run the other way."""
+    corners, uv = made.surface.triangle_corners.ravel(), made.uv @ [1, 1j]
+    start, end = uv[corners[one]], uv[corners[next_sides(one)]]
+    jumps = np.abs([uv[corners[next_sides(other)]] - start, uv[corners[other]] - end])
+    return jumps.max(axis=0) > TORN * np.abs(end - start)
 
 
 def _sizes(maps):

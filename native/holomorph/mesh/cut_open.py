@@ -46,14 +46,15 @@ def _fans(triangle_edges, is_seam, most):
     pairs = np.flatnonzero((edges[order[1:]] == edges[order[:-1]]) & ~is_seam[edges[order[1:]]])
     one, other = order[pairs], order[pairs + 1]
     following = corners.copy()
-    following[one], following[other] = _next_side(other), _next_side(one)
+    following[one], following[other] = next_sides(other), next_sides(one)
     place, lowest = following, corners
     for _ in range(most.bit_length()):
         lowest, place = np.minimum(lowest, lowest[place]), place[place]
     return np.where(following[place] == place, place, lowest)
 
 
-def _next_side(sides):
+def next_sides(sides):
+    """The side that follows each one in its triangle, numbered through all triangles."""
     return np.where(sides % 3 == 2, sides - 2, sides + 1)
 
 

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from .cut_open import on_border, paths_to_border
+from .cut_open import next_sides, on_border, paths_to_border
+from .edges import edge_keys
 
 TIP = np.pi / 3  # radians that are missing around a vertex, or too many
 HIDING = np.pi / 3  # radians, from which on the bend hides a seam; where it is less, in proportion
@@ -39,6 +40,19 @@ def seen(bent):
     return np.maximum(1 - bent / HIDING, 0)
 
 
+def cuts(parts):
+    """((2, n) parts, (2, n) sides of their triangles, numbered through, (n,) their length, (n,) how far a seam is seen
+    there) of the edges at which these parts of one mesh are cut open, or from each other."""
+    borders = list(map(_border, parts))
+    of = np.repeat(np.arange(len(parts)), [len(border[0]) for border in borders])
+    sides, keys, lengths, normals = map(np.concatenate, zip(*borders))
+    order = np.argsort(keys, kind="stable")
+    both = np.flatnonzero(keys[order[1:]] == keys[order[:-1]])
+    pairs = np.stack([order[both], order[both + 1]])
+    one, other = normals[pairs]
+    return of[pairs], sides[pairs], lengths[pairs[0]], seen(angles(one, -other))
+
+
 def cuts_to_tips(surface, is_seam):
     """(#E,) the shortest paths of the polygons' edges from the seams, a mask of edges, and from the boundary to the
     tips of the parts that they leave."""
@@ -56,6 +70,17 @@ def curvature(surface, is_seam=None, most=np.inf):
     is_seam = np.zeros(len(surface._native.edges), bool) if is_seam is None else is_seam
     missing = np.abs(_defects(surface)[~on_border(surface, is_seam)])
     return float(missing[missing <= most].sum())
+
+
+def _border(surface):
+    """(sides of triangles on the boundary; names of the edges there, equal for the same vertices of the mesh as given;
+    their lengths; normals of their faces, as if all ran from the lower vertex to the other)."""
+    edges = surface._native.triangle_edges.ravel()
+    sides = np.flatnonzero(np.bincount(edges)[edges] == 1)
+    start, end = surface.vertex_index[surface.triangles.ravel()[np.stack([sides, next_sides(sides)])]]
+    keys = edge_keys(np.stack([start, end], axis=1), surface.given_vertex_count)
+    normals = _face_normals(surface)[surface.triangle_faces[sides // 3]] * np.where(start < end, 1, -1)[:, None]
+    return sides, keys, surface._native.edge_lengths[edges[sides]], normals
 
 
 def _face_normals(surface):

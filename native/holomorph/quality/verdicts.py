@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..core import arrays
 from ..core.value import counted, percent, rounded
-from .appearance import FLIPPED, cost, of_overlaps
+from .appearance import FLIPPED, HARD_SEAM, SEAM, cost, of_overlaps
 from .appearance import SHEAR as SHEAR_COST
 
 if TYPE_CHECKING:
@@ -80,6 +80,13 @@ class Seen:
     lines: str = "none"
     folded: float = 0.0
     unmapped: float = 0.0
+
+    def cut(self, seams: float, hidden: float) -> Seen:
+        """With more seams, in view and hidden, of these lengths over the root of the area."""
+        if not seams and not hidden:
+            return self
+        cost = self.cost + SEAM * seams + HARD_SEAM * hidden
+        return replace(self, cost=cost, seams=(self.seams or 0.0) + seams, hidden=self.hidden + hidden)
 
     @classmethod
     def joined(cls, parts: Sequence[Seen], areas: ArrayLike, unmapped: float) -> Seen:

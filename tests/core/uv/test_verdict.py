@@ -6,7 +6,7 @@ from dataclasses import replace
 import families
 import numpy as np
 import pytest
-from holomorph import Seen, Surface, Verdict, automatic_structure, form_map, verdict
+from holomorph import Seen, Surface, Verdict, automatic_map, automatic_structure, form_map, islands, verdict
 from holomorph.__main__ import main
 from holomorph.maps.report import part_report, refused_report, skipped_report, whole_report
 from holomorph.quality.appearance import SHEAR
@@ -229,6 +229,44 @@ def test_parts_without_area_are_not_mentioned():
     (refused,), made = surface.refused, form_map(surface, automatic_structure(surface))
     found = whole_report([made], [part_report(made), refused_report(refused)], surface.repairs)
     assert found["whole"]["text"] == "" and found["verdict"] == vars(made.verdict)
+
+
+def sheet(bent, count=8):
+    """(vertices, quads) of a unit square that is bent by this angle about its middle."""
+    x, y = np.stack(np.meshgrid(*2 * [np.linspace(0, 1, count + 1)], indexing="ij")).reshape(2, -1)
+    away = np.maximum(x - 0.5, 0)
+    corner = (np.arange(count)[:, None] * (count + 1) + np.arange(count)).ravel()
+    quads = corner[:, None] + [0, count + 1, count + 2, 1]
+    points = np.stack([np.minimum(x, 0.5) + away * np.cos(bent), y, away * np.sin(bent)], axis=1)
+    return points, quads
+
+
+def of_islands(surface, rows):
+    """The report on the flat islands that a seam along these rows of the middle of a `sheet` leaves."""
+    middle = np.arange(36, 45)[rows]
+    parts = islands(surface, np.stack([middle[:-1], middle[1:]], axis=1))
+    maps = [automatic_map(part, main="untiled") for part in parts]
+    return whole_report(maps, list(map(part_report, maps)), surface.repairs)
+
+
+@pytest.mark.parametrize("is_turned", [False, True])
+@pytest.mark.parametrize(("bent", "seams"), [(0, 1), (np.pi / 9, 2 / 3), (np.pi / 2, 0)])
+def test_seams_that_cut_a_mesh_into_parts_are_seen(bent, seams, is_turned):
+    points, quads = sheet(bent)
+    if is_turned:  # faces on one side run the other way
+        quads = np.where(points[quads][:, :, 0].mean(axis=1)[:, None] > 0.5, quads[:, ::-1], quads)
+    found = of_islands(Surface(points, quads, strict=False), slice(None))
+    assert found["whole"]["seams"] == pytest.approx(seams, abs=1e-9)
+    words = f"seams in view ({seams:.2g} times its size)" if seams else "seams at hard edges"
+    assert found["verdict"]["sentence"] == f"Even, {words}"
+
+
+@pytest.mark.parametrize(("height", "is_seen"), [(0, False), (1, True)])
+def test_a_cut_that_ends_inside_is_seen_where_the_map_opens(height, is_seen):
+    points, quads = sheet(0)
+    points[:, 2] = height * np.exp(-8 * ((points[:, :2] - 0.5) ** 2).sum(axis=1))
+    found = of_islands(Surface(points, quads), slice(5))
+    assert (found["whole"]["seams"] > 0.1) == is_seen and (found["whole"]["seams"] > 0) == is_seen
 
 
 @pytest.mark.parametrize(("end", "is_folded"), [((2.0, -1.0), True), ((2.0, 1.0), False)])
