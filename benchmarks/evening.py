@@ -90,7 +90,7 @@ class Case:
         uv = make()
         seconds = time.perf_counter() - begin
         quality = Quality.of(self.surface._native, uv.reshape(-1, 2), 0)
-        low, few, most, high = quantiles(quality.area, quality._weights, (0.01, 0.05, 0.95, 0.99))
+        low, few, most, high = quantiles(quality.area, quality.weights, (0.01, 0.05, 0.95, 0.99))
         seams = self._seam_length(uv if family == "seamless" else uv / self.scale)
         shear, flipped = quality.mean_angle, quality.flipped_part
         return Row(family, name, most / few, high / low, shear, flipped, seams, seconds)

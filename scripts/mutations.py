@@ -236,9 +236,9 @@ MUTATIONS = (
         ("folded", "if seen.folded > FOLDED", "if seen.folded > 9", VERDICT),
     )
     | of(
-        PACKAGE + "mesh/facets.py",
-        ("strips", "NARROW = 2.5", "NARROW = 0.25", "tests/core/mesh/test_facets.py"),
-        ("curved-facets", "LEVEL = 0.97", "LEVEL = 0.0", LOOKS),
+        ROOM + "mesh/facets.cpp",
+        ("strips", "kNarrow = 2.5", "kNarrow = 0.25", "tests/core/mesh/test_facets.py"),
+        ("curved-facets", "kLevel = 0.97", "kLevel = 0.0", LOOKS),
     )
     | of(
         PACKAGE + "mesh/folds.py",
@@ -254,9 +254,9 @@ MUTATIONS = (
         ("good-islands", "GOOD = 0.8 ", "GOOD = 8.0 ", LOOKS),
     )
     | of(
-        PACKAGE + "quality/appearance.py",
-        ("seams-free", "SEAM = 0.5 ", "SEAM = 0.05 ", EYE),
-        ("shear-free", "SHEAR = 2.0", "SHEAR = 0.2", EYE),
+        ROOM + "uv/appearance.h",
+        ("seams-free", "kSeam = 0.5;", "kSeam = 0.05;", EYE),
+        ("shear-free", "kShear = 2;", "kShear = 0.2;", EYE),
     )
     | of(
         PACKAGE + "mesh/copies.py",
@@ -270,10 +270,9 @@ MUTATIONS = (
         ("slivers-rounding", "kCoordinateRounding = 0x1p-20", "kCoordinateRounding = 0x1p-40", SLIVERS),
     )
     | of(ROOM + "mesh/stitching.cpp", ("slivers-as-others", "? 2 : 0;  // what", "? 0 : 0;  // what", SLIVERS))
-    | of(ROOM + "islands/cuts_to_disks.cpp", ("paths-stop", "kShortest = 1e-12", "kShortest = 0", SLIVERS))
-    | of(PACKAGE + "mesh/cut_open.py", ("paths-stop-at-places", "SHORTEST = 1e-12", "SHORTEST = 0.0", SLIVERS))
-    | of(PACKAGE + "mesh/hard_edges.py", ("slivers-own-normals", "[surface._native.sliver_owners()]", "", SLIVERS))
-    | of(PACKAGE + "cutting/island_layout.py", ("same-place", "SAME = 1e-5", "SAME = 1e-6", SLIVERS))
+    | of(ROOM + "mesh/border_paths.cpp", ("paths-stop", "kShortest = 1e-12", "kShortest = 0", SLIVERS))
+    | of(ROOM + "mesh/hard_edges.cpp", ("slivers-own-normals", "sums[owners[f]]", "sums[f]", SLIVERS))
+    | of(ROOM + "islands/island_layout.cpp", ("same-place", "kSame = 1e-5", "kSame = 1e-6", SLIVERS))
     | of(
         ROOM + "turns/line_values.cpp",
         ("lines-signs", "a.factor * b.factor, std::move(less)", "1, std::move(less)", LINES),
@@ -290,11 +289,11 @@ MUTATIONS = (
     | of(ROOM + "islands/merge_islands.cpp", ("held-islands", "cos(5 *", "cos(150 *", DIRECTION))
     | of(ROOM + "turns/upright.cpp", ("upright-turns", "sine : sine;", "sine : -sine;", DIRECTION))
     | of(
-        PACKAGE + "quality/direction.py",
-        ("direction-steep", "STEEP = 0.35", "STEEP = 0.2", DIRECTION),
-        ("direction-turns", "period = 360 / turns", "period = 180 / turns", DIRECTION),
-        ("direction-slanted", "SLANTED = 25.0", "SLANTED = 20.0", DIRECTION),
+        ROOM + "uv/direction.cpp",
+        ("direction-steep", "kSteep = 0.35", "kSteep = 0.2", DIRECTION),
+        ("direction-turns", "period = 360.0 / turns", "period = 180.0 / turns", DIRECTION),
     )
+    | of(PACKAGE + "quality/direction.py", ("direction-slanted", "SLANTED = 25.0", "SLANTED = 20.0", DIRECTION))
     | of(ROOM + "turns/turned_space.cpp", ("lines-parts", "% 2 == 0 ? 1 : 0;", "% 2 == 0 ? 0 : 1;", LINES))
     | of(
         ROOM + "evening/unknowns.cpp",

@@ -13,6 +13,8 @@ from repository import ROOT
 
 PROGRAM = ROOT / "examples" / "tiled_uv.cpp"
 MESHES = {"torus": families.torus(12, 8), "genus 2": families.block_with_holes(2, refine=2, jitter=0.1)}
+BRACKET = np.ones((3, 2, 3), bool)
+BRACKET[1:, :, 1:] = False
 CONTAINS = """
 cmake_minimum_required(VERSION 3.24)
 project(consumer LANGUAGES CXX)
@@ -73,3 +75,17 @@ def test_each_way_gives_the_tiling_of_the_python_package(program, name, tmp_path
         f"{len(made.poles)} poles, angle distortion {quality.mean_angle:.17g}, size range {quality.size_range:.17g}"
     )
     assert output(program, tmp_path / "mesh.obj").strip() == expected
+
+
+ISLANDS = {"cube": families.cube(), "tube": families.cylinder(13, 8), "bracket": families.voxel_surface(BRACKET)}
+
+
+@pytest.mark.parametrize("name", ISLANDS)
+def test_islands_are_those_of_the_python_package(examples, name, tmp_path):
+    """Bit for bit."""
+    mesh = ISLANDS[name]
+    holomorph.Surface(mesh.vertices, [np.asarray(face) for face in mesh.faces]).write(tmp_path / "mesh.obj")
+    made = holomorph.island_map(holomorph.Surface.read(tmp_path / "mesh.obj"), evenness=0.5)
+    figures, *rows = output(examples / "island_uv", tmp_path / "mesh.obj").strip().splitlines()
+    assert figures == f"{made.count} {made.cost:.17g}"
+    assert np.array_equal([[float(value) for value in row.split()] for row in rows], made.uv)

@@ -17,18 +17,22 @@ void of_arrays(const holomorph::mesh::Polygons& polygons) {{
 void tiled(const std::shared_ptr<holomorph::mesh::Surface>& part, holomorph::Execution& execution) {{
 {1}
 }}
-void of_a_mesh(Mesh& mesh, holomorph::Execution& execution) {{
+void flat(const std::shared_ptr<holomorph::mesh::Surface>& part, const holomorph::uv::Quality& found,
+          holomorph::Execution& execution) {{
 {2}
+}}
+void of_a_mesh(Mesh& mesh, holomorph::Execution& execution) {{
+{3}
 }}
 void with_forms(Mesh& mesh, const holomorph::openmesh::SurfaceOfMesh& part, holomorph::structure::Structure& structure,
                 holomorph::structure::PrimalForms* forms, holomorph::Execution& execution) {{
-{3}
-}}
-void of_a_file() {{
 {4}
 }}
-void of_openmesh(Mesh& mesh) {{
+void of_a_file() {{
 {5}
+}}
+void of_openmesh(Mesh& mesh) {{
+{6}
 }}
 int main() {{}}
 """

@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from .. import _native
 from .._native import TopologyError
 from ..core.array_types import Progress
 from ..mesh.checks import check_type, real_number
-from ..mesh.cut_open import cut_open, on_border, paths_to_border
+from ..mesh.cut_open import cut_open
 from ..mesh.surface import Surface
 from ..plane.disk import free_boundary_map
 
@@ -59,4 +60,5 @@ def _cut_from(disk, vertex):
     no_seam = np.zeros(len(disk._native.edges), bool)
     is_start = np.zeros(len(disk.vertices), bool)
     is_start[vertex] = True
-    return cut_open(disk, paths_to_border(disk, on_border(disk, no_seam), is_start))
+    border = _native.on_border(disk._native, no_seam)
+    return cut_open(disk, _native.paths_to_border(disk._native, border, is_start))

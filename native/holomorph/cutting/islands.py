@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import _native
 from .._native import TopologyError
 from ..mesh.checks import check_type, real_number
 from ..mesh.cut_open import cut_open
 from ..mesh.edges import edge_keys
-from ..mesh.hard_edges import cuts_to_tips, is_hard
+from ..mesh.hard_edges import is_hard
 from ..mesh.surface import Surface
 
 
@@ -55,7 +56,7 @@ def islands(
     is_seam[: len(sides)] = np.isin(sides, wanted)
     if hard_edges is not None:
         is_seam |= is_hard(surface, real_number(hard_edges, "hard_edges", positive=True))
-        is_seam |= cuts_to_tips(surface, is_seam)
+        is_seam |= _native.cuts_to_tips(surface._native, is_seam)
     return cut_open(surface, is_seam).components
 
 

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from .. import _native
 from ..core import arrays
 from ..core.array_types import Integers, Progress
 from ..core.progress import scaled
@@ -16,8 +17,7 @@ from ..core.value import counted
 from ..cutting.island_layout import Islands
 from ..cutting.island_map import HARD, SMOOTH
 from ..mesh.edges import boundary_edges, edge_keys
-from ..mesh.facets import breaks
-from ..mesh.hard_edges import seen
+from ..mesh.hard_edges import breaks
 from ..mesh.origin import edges_on_part
 from ..mesh.surface import Surface
 from ..quality.appearance import HARD_SEAM, TURN
@@ -239,6 +239,6 @@ def _seams(surface, pieces):
 
 def _seen_lengths(surface, is_border):
     """(length of seams across the smooth, and of hidden ones) over the square root of the area."""
-    lengths, part = surface._native.edge_lengths[is_border], seen(breaks(surface)[is_border])
+    lengths, part = surface._native.edge_lengths[is_border], _native.seen(breaks(surface)[is_border])
     size = math.sqrt(surface.area)
     return float((lengths * part).sum()) / size, float((lengths * (1 - part)).sum()) / size

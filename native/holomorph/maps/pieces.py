@@ -7,14 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .. import _native
 from ..core import arrays
 from ..core.array_types import Flags, Integers, Reals
-from ..cutting.island_cuts import edges_between, in_one_orientation
 from ..cutting.island_layout import Islands
 from ..mesh.cut_open import cut_open
 from ..mesh.edges import around_boundary, boundary_edges, edge_keys
-from ..mesh.facets import breaks
-from ..mesh.hard_edges import TIP, curvature, seen
+from ..mesh.hard_edges import TIP, breaks, curvature
 from ..mesh.origin import Origin
 from ..mesh.surface import Surface
 from ..quality.appearance import cost, of_squares
@@ -61,7 +60,7 @@ class Piece:
 def names_of_pieces(surface: Surface, is_hard_edge: Flags) -> Integers:
     """(#F,) the piece of each polygon, from 0 on: hard edges, (#E,), that end within one do not divide it. Those of
     less than `WORTH` of the area are `REST`."""
-    names = np.asarray(cut_open(surface, is_hard_edge)._native.face_component)
+    names = _native.parts(surface._native, is_hard_edge)
     a, b, c = np.moveaxis(surface.vertices[surface.triangles], 1, 0)
     areas = np.bincount(names[surface.triangle_faces], np.linalg.norm(np.cross(b - a, c - a), axis=1))
     if areas.max() > (1 - SPECK) * areas.sum():
@@ -71,9 +70,9 @@ def names_of_pieces(surface: Surface, is_hard_edge: Flags) -> Integers:
 
 def cut_apart(surface: Surface, names: Integers) -> tuple[Surface, ...]:
     """The components of a surface that is cut between polygons of different names, (#F,). They count as it does."""
-    oriented, order = in_one_orientation(surface)
-    origin = Origin(corner_index=order.astype(np.int32), vertex_count=len(surface.vertices), up=surface.up)
-    return cut_open(Surface._of(oriented._native, origin), edges_between(oriented, names)).components
+    native, order = _native.in_one_orientation(surface._native)
+    origin = Origin(corner_index=order, vertex_count=len(surface.vertices), up=surface.up)
+    return cut_open(Surface._of(native, origin), _native.edges_between(native, names)).components
 
 
 def smooth_pieces(surface: Surface, flat: Islands | None, names: Integers, threads: int) -> list[Piece]:
@@ -107,7 +106,7 @@ def _piece(part, name, flat, threads):
     native, count = part._native, part.given_vertex_count
     is_inner = np.bincount(native.triangle_edges.ravel(), minlength=len(native.edges)) == 2
     is_seam = np.isin(edge_keys(part.vertex_index[native.edges], count), edge_keys(flat.seams, count)) & is_inner
-    soft = float((native.edge_lengths * seen(breaks(part)))[is_seam].sum())
+    soft = float((native.edge_lengths * _native.seen(breaks(part)))[is_seam].sum())
     return Piece(part, name, uv, cost(quality, 0, soft / math.sqrt(part.area))), soft, of_squares(quality)
 
 

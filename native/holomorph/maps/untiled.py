@@ -12,8 +12,7 @@ from ..core.progress import scaled
 from ..core.value import counted
 from ..cutting.island_layout import Islands
 from ..cutting.island_map import EVENED, HARD, IslandSearch, one_island
-from ..mesh.facets import breaks
-from ..mesh.hard_edges import TIP, curvature
+from ..mesh.hard_edges import TIP, breaks, curvature
 from ..mesh.surface import Surface
 from ..quality.appearance import of_squares
 from ..tiling.tilings import Tiling
@@ -44,7 +43,7 @@ class Untiled:
         self.surface, self._structure, self._evenness, self._is_upright = surface, structure, evenness, is_upright
         self._conformal: Map | None = None
         has_islands = surface.vertices is not None and surface.area > 0
-        self._search = IslandSearch(surface, HARD, evenness, threads or 0, is_upright) if has_islands else None
+        self._search = IslandSearch(surface, evenness, threads or 0, is_upright) if has_islands else None
 
     @property
     def known(self) -> Islands | None:

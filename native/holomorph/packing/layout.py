@@ -7,7 +7,6 @@ so that straight boundaries stay horizontal. Same sizes, same layout: ties go by
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,27 +18,15 @@ from ..core.array_types import Reals
 from ..mesh.checks import complex_number, real_number
 from ..mesh.surface import Surface
 
-WIDTHS = 24  # tried, from the square of the total area upwards
-WIDEST = 2.0  # the largest of these widths, in sides of that square
-MOST_GAP = 0.3  # share of the side for all gaps of a row: with many parts the margin is less than the given one
-GAP_ROUNDS = 4  # the gap is a share of a side that depends on the gap; each round leaves a few per cent of the error
-
 
 def rows(sizes: Reals, width: float, gap: float) -> tuple[Reals, tuple[float, float]]:
     """((n, 2) lower left corners, (w, h) of the whole): the rectangles of (n, 2) `sizes` on shelves of `width`."""
     return _native.on_shelves(sizes, real_number(width, "width"), real_number(gap, "gap"))
 
 
-def _best_rows(sizes, gap):
-    padded = sizes + gap
-    square = max(math.sqrt(float(np.prod(padded, axis=1).sum())), float(sizes[:, 0].max()))
-    found = [_native.on_shelves(sizes, width, gap) for width in np.geomspace(square, WIDEST * square, WIDTHS)]
-    return min(found, key=lambda layout: max(layout[1]))  # the first of equals
-
-
 def fitting_margin(margin: float, count: int) -> float:
     """The margin, or the largest one for which this number of parts has room."""
-    return min(margin, MOST_GAP / math.sqrt(count))
+    return _native.fitting_margin(margin, count)
 
 
 def pack(sizes: ArrayLike, margin: float) -> tuple[Reals, float]:
@@ -53,14 +40,7 @@ def pack(sizes: ArrayLike, margin: float) -> tuple[Reals, float]:
         return np.zeros((0, 2)), 0.0
     if sizes.ndim != 2 or sizes.shape[1] != 2 or not np.isfinite(sizes).all():
         raise ValueError(f"sizes has the shape {sizes.shape}; (n, 2) finite numbers are needed")
-    if not sizes.any():  # all of them points
-        return np.zeros_like(sizes), 0.0
-    margin = fitting_margin(margin, len(sizes))
-    corners, whole = _best_rows(sizes, 0.0)
-    for _ in range(GAP_ROUNDS if len(sizes) > 1 else 0):
-        corners, whole = _best_rows(sizes, margin * max(whole))
-    side = max(whole)
-    return corners + (side - np.array(whole)) / 2, side
+    return _native.pack(sizes, margin)
 
 
 @dataclass(frozen=True)

@@ -8,12 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
+from .. import _native
 from ..core import arrays
 from ..core.array_types import Complexes, Reals
 from ..core.value import Value, percent
 
-AXIS = {"Y": 1, "Z": 2}  # of positions, by `Surface.up`
-STEEP = 0.35  # least sine of the angle between the normal of a triangle and the vertical
 UPRIGHT, SIDEWAYS, UPSIDE_DOWN = 15.0, 20.0, 160.0  # degrees: from up at most, from a right angle at most, at least
 SLANTED = 25.0  # degrees from up at least: less is hardly seen on a rounded surface
 
@@ -51,10 +50,12 @@ class Direction(Value):
     @classmethod
     def of(cls, triangulation: object, uv: Reals, up: str, turns: int = 1) -> Direction:
         """That of (#C, 2) UVs on a native surface with positions."""
-        points, corners = triangulation.vertices[triangulation.triangles], uv[triangulation.triangle_corners]
-        angle, area, is_steep = turned(points, corners, up)
-        made = cls(*map(arrays.frozen, (angle, area * is_steep)), float(area.sum()), up, 1)
-        return made if turns == 1 else made.under(turns)
+        return cls.of_native(_native.direction(triangulation, uv, up, turns), up)
+
+    @classmethod
+    def of_native(cls, found: _native.Direction, up: str) -> Direction:
+        """That of what the core measured."""
+        return cls(found.angle, found.steep, found.area, up, found.turns)
 
     def under(self, turns: int) -> Direction:
         """That of the same map under a texture that looks the same after k-th parts of a full turn."""
@@ -124,24 +125,3 @@ def uphill(triangulation: object, uv: Reals, axis: Sequence[float]) -> Complexes
     corners = (uv @ [1, 1j])[triangulation.triangle_corners]
     across = 0.5j * (np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1))
     return (across * (triangulation.vertices[triangulation.triangles] @ axis)).sum(axis=1)
-
-
-def turned(points: Reals, uv: Reals, up: str) -> tuple[Reals, Reals, Reals]:
-    """((#T,) degrees between the gradient of v and what is up, areas, whether it is steep and v has a gradient) of
-    triangles with (#T, 3, 3) positions and (#T, 3, 2) UVs."""
-    first, second = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
-    a, b, c = (np.einsum("ij,ij->i", x, y) for x, y in ((first, first), (first, second), (second, second)))
-    squared = np.maximum(a * c - b * b, 0.0)  # of twice the area
-    axis, v = AXIS[up], uv[..., 1] - uv[:, :1, 1]
-
-    def product(p, q):
-        """That of the gradients, times `squared`, of functions with these differences along the two sides."""
-        return p[0] * q[0] * c - (p[0] * q[1] + p[1] * q[0]) * b + p[1] * q[1] * a
-
-    rises, heights = (v[:, 1], v[:, 2]), (first[:, axis], second[:, axis])
-    steepness, length = product(heights, heights), product(rises, rises)
-    is_steep = (steepness > STEEP**2 * squared) & (length > 0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        cosine = product(rises, heights) / np.sqrt(steepness * length)
-    angle = np.degrees(np.arccos(np.clip(np.nan_to_num(cosine, nan=1.0), -1, 1)))
-    return angle, np.sqrt(squared) / 2, is_steep

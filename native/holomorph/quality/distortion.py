@@ -7,16 +7,16 @@ triangles of surfaces.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
+from .. import _native
 from ..core.array_types import Integers, Reals
-from .direction import UPRIGHT, turned
 
-MOST_OCTAVES = 16.0  # a density beyond is one of a collapsed polygon
-COLLAPSED = 1e3  # s1 / s2 of a collapsed polygon
+MOST_OCTAVES = _native.most_octaves  # a density beyond is one of a collapsed polygon
+COLLAPSED = _native.collapsed_angle  # s1 / s2 of a collapsed polygon
 MOST_ANGLE = 10.0  # what s1 / s2 counts at most in its mean, so that no single triangle decides it; as in uv/quality.h
 LOW, HIGH = 0.05, 0.95  # quantiles of the density whose ratio is reported
 
@@ -71,33 +71,12 @@ def fans(face_offsets: Integers) -> tuple[Integers, Integers]:
 
 def measure(mesh: Polygons, uv: Reals, up: str = "Z") -> Distortion:
     """The `Distortion` of a (#C, 2) map of the mesh's polygon corners. up : the axis that points up, "Y" or "Z"."""
-    corners, polygon = fans(mesh.face_offsets)
-    points, at = mesh.vertices[mesh.corner_vertices[corners]], uv.astype(np.float64)[corners]
-    g11, g12, g22, area = _metric(points)
-    h11, h12, h22, uv_area = _metric(at)
-    count = len(mesh.face_offsets) - 1
-    face_area, face_uv = (np.bincount(polygon, values, count) for values in (area, uv_area))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        half = (g22 * h11 - 2 * g12 * h12 + g11 * h22) / (8 * area * uv_area)  # (s1 / s2 + s2 / s1) / 2
-        angle = np.where(area > 0, half + np.sqrt(np.clip(half**2 - 1, 0, None)), 1)
-        angle = np.clip(np.nan_to_num(angle, nan=COLLAPSED, posinf=COLLAPSED), 1, COLLAPSED)
-        angle = np.where(face_area > 0, np.bincount(polygon, area * angle, count) / face_area, 1)
-        density = np.where(face_area > 0, face_uv / face_area, np.nan)
-        low, median, high = quantiles(density, face_area, (LOW, 0.5, HIGH))
-        octaves = np.clip(np.nan_to_num(np.log2(density / median), nan=0.0), -MOST_OCTAVES, MOST_OCTAVES)
-    mean = np.average(np.minimum(angle, MOST_ANGLE), weights=face_area) if face_area.any() else 1.0
-    size_range = float(np.sqrt(high / low)) if low > 0 else np.inf
-    return Distortion(octaves, angle, size_range, float(mean), *_direction(points, at, up, polygon, count))
+    found = _native.distortion(*_arrays(mesh), uv, up)
+    return Distortion(*(getattr(found, field.name) for field in fields(Distortion)))
 
 
-def _direction(points, uv, up, polygon, count):
-    """`Distortion.direction` and `upright_part` of triangles, of these of `count` polygons."""
-    degrees, area, is_steep = turned(points, uv, up)
-    steep = area * is_steep
-    of_face = np.bincount(polygon, steep, count)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        direction = np.where(of_face > 0, np.bincount(polygon, steep * degrees, count) / of_face, 0.0)
-    return direction, float(np.average(degrees < UPRIGHT, weights=steep)) if steep.any() else 1.0
+def _arrays(mesh):
+    return mesh.vertices, mesh.corner_vertices, mesh.face_offsets
 
 
 def worst_places(mesh: Polygons, uv: Reals, poles: Integers) -> dict[str, WorstPlace]:
@@ -124,26 +103,14 @@ def worst_places(mesh: Polygons, uv: Reals, poles: Integers) -> dict[str, WorstP
 
 
 def drawn_densities(mesh: Polygons, uv: Reals) -> tuple[float, float, float]:
-    """UV area per surface area: its 5 %, 50 % and 95 % quantile by area over the triangles that are drawn, `fans`; 0
-    where there is no area."""
-    corners, _ = fans(mesh.face_offsets)
-    area = _metric(mesh.vertices[mesh.corner_vertices[corners]])[-1]
-    uv_area = _metric(uv.astype(np.float64)[corners])[-1]
-    has_area = area > 0
-    low, median, high = quantiles(uv_area[has_area] / area[has_area], area[has_area], (LOW, 0.5, HIGH))
-    return float(low), float(median), float(high)
+    """UV area per surface area: its 5 %, 50 % and 95 % quantile by area over the triangles that are drawn; 0 where
+    there is no area."""
+    return _native.drawn_densities(*_arrays(mesh), uv)
 
 
 def length_ratio(mesh: Polygons, uv: Reals) -> float:
     """UV length for a length on the surface, where the density is the median one; 0 where there is no area."""
     return drawn_densities(mesh, uv)[1] ** 0.5
-
-
-def _metric(points):
-    """The inner products of two sides of (#T, 3, d) triangles, and their areas."""
-    first, second = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
-    a, b, c = (np.einsum("ij,ij->i", x, y) for x, y in ((first, first), (first, second), (second, second)))
-    return a, b, c, 0.5 * np.sqrt(np.clip(a * c - b * b, 0, None))
 
 
 def quantiles(values: Reals, weights: Reals, shares: Sequence[float]) -> list[float]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -24,13 +24,13 @@ class Quality(Value):
     """Distortion of a UV map per triangle, s1 >= s2 its singular values.
 
     angle: (#T,) s1 / s2 (1 where a triangle has no area, infinite where it has collapsed or a UV is not finite); area:
-    (#T,) s1 s2, UV area per surface area; flipped: (#T,) bool; mean_angle: mean of s1 / s2 over the area, each
-    triangle with 10 at most, so that none decides it alone; density_ratio: 95 % over 5 % quantile of s1 s2 by area;
-    median_density: its 50 % quantile; size_range: of the sides of squares, the root of density_ratio; flipped_part,
-    lost_part: parts of the area that are flipped, and that are flipped or have collapsed; overlapping_part: of a map
-    with a free boundary, the part of its region in the plane that it covers more than once; None for others;
-    unseen_angle: of an evened map, what evening added to `mean_angle`, as far as that is not seen; direction:
-    `Direction`, None where nothing is to be upright.
+    (#T,) s1 s2, UV area per surface area; flipped: (#T,) bool; weights: (#T,) areas on the surface; mean_angle: mean
+    of s1 / s2 over the area, each triangle with 10 at most, so that none decides it alone; density_ratio: 95 % over
+    5 % quantile of s1 s2 by area; median_density: its 50 % quantile; size_range: of the sides of squares, the root of
+    density_ratio; flipped_part, lost_part: parts of the area that are flipped, and that are flipped or have collapsed;
+    overlapping_part: of a map with a free boundary, the part of its region in the plane that it covers more than once;
+    None for others; unseen_angle: of an evened map, what evening added to `mean_angle`, as far as that is not seen;
+    direction: `Direction`, None where nothing is to be upright.
     """
 
     _unpickled = ("_triangulation",)
@@ -38,9 +38,12 @@ class Quality(Value):
     angle: Reals
     area: Reals
     flipped: Flags
+    weights: Reals
     mean_angle: float
     density_ratio: float
     median_density: float
+    flipped_part: float
+    lost_part: float
     _triangulation: object
     overlapping_part: float | None = None
     unseen_angle: float = 0.0
@@ -49,9 +52,13 @@ class Quality(Value):
     @classmethod
     def of(cls, triangulation: object, uv: Reals, threads: int) -> Quality:
         """The `Quality` of (#C, 2) UVs on a native surface."""
-        found = _native.quality(triangulation, uv, threads)
-        parts = found.angle, found.area, found.flipped
-        return cls(*parts, found.mean_angle, found.density_ratio, found.median_density, triangulation)
+        return cls._of(_native.quality(triangulation, uv, threads), triangulation)
+
+    @classmethod
+    def _of(cls, found, triangulation, up="Z"):
+        direction = found.direction and Direction.of_native(found.direction, up)
+        values = {field.name: getattr(found, field.name) for field in fields(cls) if not field.name.startswith("_")}
+        return cls(**values | {"direction": direction}, _triangulation=triangulation)
 
     @classmethod
     def joined(cls, qualities: Sequence[Quality], densities: ArrayLike) -> Quality:
@@ -63,23 +70,21 @@ class Quality(Value):
         scaled = [each.of_density(density) for each, density in zip(qualities, densities)]
         if len(scaled) == 1:
             return scaled[0]
-        parts = [(each.angle, each.area, each.flipped, each._weights) for each in scaled]
+        parts = [(each.angle, each.area, each.flipped, each.weights) for each in scaled]
         angle, density, flipped, weights = map(np.concatenate, zip(*parts))
         low, median, high = quantiles(density, weights, (LOW, 0.5, HIGH))
         mean = float(np.average(np.minimum(angle, MOST_ANGLE), weights=weights))
-        figures = mean, float(high / low) if low > 0 else np.inf, float(median)
-        shares = [each._weights.sum() for each in qualities]
-        unseen, overlapping = (
+        shares = [each.weights.sum() for each in qualities]
+        flipped_part, lost, unseen, overlapping = (
             float(np.average([getattr(each, name) or 0.0 for each in qualities], weights=shares))
-            for name in ("unseen_angle", "overlapping_part")
+            for name in ("flipped_part", "lost_part", "unseen_angle", "overlapping_part")
         )
+        figures = mean, float(high / low) if low > 0 else np.inf, float(median), flipped_part, lost
         is_island = any(each.overlapping_part is not None for each in qualities)
-        of_triangles = map(arrays.frozen, (angle, density, flipped))
+        of_triangles = map(arrays.frozen, (angle, density, flipped, weights))
         directions = [each.direction for each in qualities if each.direction]
         direction = Direction.joined(directions) if directions else None
-        result = cls(*of_triangles, *figures, None, overlapping if is_island else None, unseen, direction)
-        vars(result)["_weights"] = weights
-        return result
+        return cls(*of_triangles, *figures, None, overlapping if is_island else None, unseen, direction)
 
     def upright(self, uv: Reals, up: str, turns: int = 1) -> Quality:
         """The same with the `Direction` of these UVs, where the surface has positions."""
@@ -94,11 +99,9 @@ class Quality(Value):
 
     def of_copy(self, scale: float) -> Quality:
         """The `Quality` of the same map on a copy of the surface, whose lengths are multiplied by `scale`."""
-        result = self._scaled(scale**-2)
-        vars(result)["_weights"] = self._weights * scale**2
-        if self.direction:
-            vars(result)["direction"] = self.direction.of_copy(scale)
-        return result
+        direction = self.direction and self.direction.of_copy(scale)
+        weights = arrays.frozen(self.weights * scale**2)
+        return replace(self._scaled(scale**-2), weights=weights, direction=direction)
 
     def of_density(self, density: float) -> Quality:
         """The `Quality` of the map scaled until its median density is this one; a map without area keeps its own."""
@@ -106,18 +109,12 @@ class Quality(Value):
 
     def _scaled(self, factor):
         area = arrays.frozen(self.area * factor)
-        result = replace(self, area=area, median_density=self.median_density * factor)
-        vars(result)["_weights"] = self._weights
-        return result
+        return replace(self, area=area, median_density=self.median_density * factor)
 
     def _facts(self):
         lost = [(self.flipped, "flipped"), (self.collapsed, "collapsed")]
         counts = [f"{count} {name}" for flags, name in lost if (count := np.count_nonzero(flags))]
         return [f"size range {self.size_range:.4g}", f"angle distortion {self.mean_angle:.4g}", *counts]
-
-    def __getstate__(self):
-        vars(self)["_weights"] = self._weights  # these need the triangulation
-        return super().__getstate__()
 
     @property
     def collapsed(self) -> Flags:
@@ -137,29 +134,9 @@ class Quality(Value):
         if not has_size.any() or not self.median_density > 0:
             return 0.0
         octaves = np.abs(np.log(self.area[has_size] / self.median_density))
-        return float(np.average(octaves, weights=self._weights[has_size]))
-
-    @cached_property
-    def flipped_part(self) -> float:
-        return float(np.average(self.flipped, weights=self._weights))
-
-    @cached_property
-    def lost_part(self) -> float:
-        return float(np.average(self.flipped | self.collapsed, weights=self._weights))
+        return float(np.average(octaves, weights=self.weights[has_size]))
 
     @cached_property
     def verdict(self) -> Verdict:
         """The `Verdict` on the map."""
         return verdict(self)
-
-    @property
-    def _sides(self):
-        """(#T, 3) lengths, ascending."""
-        return np.sort(self._triangulation.edge_lengths[self._triangulation.triangle_edges], axis=1)
-
-    @cached_property
-    def _weights(self):
-        """(#T,) areas of the triangles, from their sides (Heron's formula, its factors kept from cancelling)."""
-        a, b, c = self._sides.T
-        areas = np.sqrt(np.maximum((c + (b + a)) * (a - (c - b)) * (a + (c - b)) * (c + (b - a)), 0.0)) / 4
-        return areas if areas.any() else np.ones_like(areas)

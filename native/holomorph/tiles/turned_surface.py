@@ -14,7 +14,6 @@ import numpy as np
 from .. import _native
 from .._native import TopologyError
 from ..core.array_types import Flags, Integers, Reals
-from ..mesh.cut_open import parted_vertices
 from ..mesh.surface import Surface
 
 PART = 1e-3  # of a tile: less is the rounding of UVs in single precision
@@ -83,9 +82,9 @@ def opened(surface: Surface, uv: Reals, turns: int, lattice: Reals) -> Opened:
     """The `Opened` surface, cut where the UVs of a tiling turn. Raises TopologyError where they turn otherwise."""
     is_cut = _turning_edges(surface, uv, turns, lattice)
     is_cut |= _beside_lonely(surface, is_cut)
-    vertices, new = parted_vertices(surface, is_cut)
-    offsets = np.arange(0, len(new) + 1, 3, dtype=np.int32)
-    native = _native.Surface.from_polygons(surface.vertices[vertices], new.astype(np.int32), offsets)
+    vertices, triangles = _native.parted_vertices(surface._native, is_cut)
+    offsets = np.arange(0, triangles.size + 1, 3, dtype=np.int32)
+    native = _native.Surface.from_polygons(surface.vertices[vertices], triangles.ravel(), offsets)
     return Opened(surface, native, uv[surface.triangle_corners.ravel()], vertices, is_cut)
 
 

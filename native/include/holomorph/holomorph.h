@@ -11,13 +11,14 @@
 //   const auto uv = structure::uv_map(found, *forms, c, execution);  // #corners x 2
 //
 // The last four lines are structure::balanced_map(part, options, execution). Seamless tilings are tiling::place and
-// tiling::tile, those that turn turns::TurnedMaps; uv::quality measures any map. Errors are the exceptions of
-// base/errors.h.
+// tiling::tile, those that turn turns::TurnedMaps; islands::island_map cuts at hard edges. uv::quality measures any
+// map, and uv::cost says what an eye minds of it. Errors are the exceptions of base/errors.h.
 #pragma once
 
 #include "base/errors.h"
 #include "base/execution.h"
 #include "evening/evening.h"
+#include "islands/island_search.h"
 #include "mesh/components.h"
 #include "mesh/io/read.h"
 #include "mesh/make_surface.h"
@@ -33,4 +34,6 @@
 #include "structure/structure.h"
 #include "tiling/tiling.h"
 #include "turns/turned_map.h"
+#include "uv/appearance.h"
+#include "uv/distortion.h"
 #include "uv/quality.h"

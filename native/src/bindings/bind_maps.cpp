@@ -1,4 +1,4 @@
-// Maps into the plane (UVs, maps of disks, islands), and records of solves.
+// Maps into the plane (UVs, maps of disks), and records of solves.
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
@@ -11,35 +11,21 @@
 #include "bindings/records.h"
 #include "evening/evening.h"
 #include "forms/gram_matrices.h"
-#include "islands/cuts_to_disks.h"
-#include "islands/fill_holes.h"
-#include "islands/flattening.h"
-#include "islands/merge_islands.h"
-#include "islands/shelves.h"
-#include "islands/split_overlaps.h"
 #include "multiresolution/harmonic_map.h"
 #include "plane/free_boundary.h"
 #include "plane/rectangle.h"
 #include "plane/rectangle_corners.h"
 #include "structure/memory_plan.h"
 #include "structure/solver_report.h"
-#include "uv/quality.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::bindings {
 namespace {
 
-using islands::Flattening;
 using plane::PlaneMap;
 using Complex = std::complex<double>;
 
 Eigen::Map<const uv::UvArray> corners(const Contiguous<double>& uv) { return {uv.data(), uv.shape(0), 2}; }
-
-uv::Quality quality(const mesh::Surface& surface, const Contiguous<double>& uv, int threads) {
-  const py::gil_scoped_release unlocked;
-  Workers workers(threads);
-  return uv::quality(surface, corners(uv), workers);
-}
 
 uv::Frame frame(const mesh::Surface& surface, const Contiguous<double>& uv, double rotation, int threads) {
   const py::gil_scoped_release unlocked;
@@ -109,19 +95,6 @@ py::array edge_weights(const mesh::Surface& surface) {
 
 void bind_uv_maps(py::module_& m) {
   using multiresolution::HarmonicMap;
-  using uv::Quality;
-  const auto viewed = [](auto member) {
-    return [member](py::object self) { return view(self.cast<const Quality&>().*member, self); };
-  };
-  py::class_<Quality>(m, "Quality")
-      .def_property_readonly("angle", viewed(&Quality::angle))
-      .def_property_readonly("area", viewed(&Quality::area))
-      .def_property_readonly(
-          "flipped",
-          [](py::object self) { return view(self.cast<const Quality&>().flipped, self).attr("view")("bool"); })
-      .def_readonly("mean_angle", &Quality::mean_angle)
-      .def_readonly("density_ratio", &Quality::density_ratio)
-      .def_readonly("median_density", &Quality::median_density);
   py::class_<uv::Frame>(m, "Frame")
       .def_readonly("low", &uv::Frame::low)
       .def_readonly("high", &uv::Frame::high)
@@ -129,7 +102,6 @@ void bind_uv_maps(py::module_& m) {
   py::class_<HarmonicMap>(m, "HarmonicMap")
       .def_property_readonly("moves", [](const HarmonicMap& map) { return copy(map.moves); })
       .def_readonly("solver", &HarmonicMap::solver);
-  m.def("quality", &quality, py::arg("surface"), py::arg("uv"), py::arg("threads"));
   m.def("evened", &evened, py::arg("surface"), py::arg("uv"), py::kw_only(), py::arg("poles"), py::arg("u"),
         py::arg("v"), py::arg("evenness"), py::arg("solver"), py::arg("threads"), py::arg("progress"));
   m.def("zeros", &zeros, py::arg("surface"), py::arg("uv"), py::arg("poles"));
@@ -196,95 +168,6 @@ void bind_plane_maps(py::module_& m) {
   m.def("clear_corners", of_surface(&plane::clear_corners), py::arg("surface"));
 }
 
-// (#E,) flags
-py::array cuts_to_disks(const mesh::Surface& surface, const py::object& progress) {
-  Execution execution(1, callback(progress));
-  std::vector<char> cuts;
-  {
-    const py::gil_scoped_release unlocked;
-    execution.stage("cuts", 0.0, 1.0);
-    cuts = islands::cuts_to_disks(surface, execution);
-  }
-  return copy(cuts);
-}
-
-std::shared_ptr<mesh::Surface> filled(const mesh::Surface& surface) {
-  Execution execution(1);
-  const py::gil_scoped_release unlocked;
-  return std::make_shared<mesh::Surface>(islands::filled(surface, execution));
-}
-
-Flattening flattened(const mesh::Surface& surface, int threads, const py::object& progress) {
-  Execution execution(threads, callback(progress));
-  const py::gil_scoped_release unlocked;
-  return islands::flattened(surface, execution);
-}
-
-// (#C, 2) UVs
-py::array evened_islands(const mesh::Surface& surface, const Flattening& flattening, double evenness, int threads,
-                         const py::object& progress) {
-  Execution execution(threads, callback(progress));
-  uv::UvArray uv;
-  {
-    const py::gil_scoped_release unlocked;
-    uv = islands::evened(surface, flattening, evenness, execution);
-  }
-  return give_matrix(std::move(uv));
-}
-
-// (#C, 2) UVs and the nets of the components. The facade has made the arguments.
-std::pair<py::array, py::array> joined(const mesh::Surface& surface, const Contiguous<double>& uv,
-                                       const Contiguous<int>& joints, const Contiguous<char>& is_joinable,
-                                       const Contiguous<char>& is_held, const py::object& progress) {
-  uv::UvArray moved = Eigen::Map<const uv::UvArray>(uv.data(), uv.shape(0), 2);
-  const auto pairs = rows<int, 4>(joints);
-  const auto joinable = values<char>(is_joinable), held = values<char>(is_held);
-  std::vector<int> nets;
-  Execution execution(1, callback(progress));
-  {
-    const py::gil_scoped_release unlocked;
-    execution.stage("joints", 0.0, 1.0);
-    nets = islands::joined(surface, moved, pairs, joinable, held, execution);
-  }
-  return {give_matrix(std::move(moved)), give(std::move(nets))};
-}
-
-// (#F,) the part of each polygon
-py::array parted(const mesh::Surface& surface, const Contiguous<double>& uv, const py::object& progress) {
-  const uv::UvArray flat = Eigen::Map<const uv::UvArray>(uv.data(), uv.shape(0), 2);
-  std::vector<int> parts;
-  Execution execution(1, callback(progress));
-  {
-    const py::gil_scoped_release unlocked;
-    execution.stage("overlaps", 0.0, 1.0);
-    parts = islands::parted(surface, flat, execution);
-  }
-  return give(std::move(parts));
-}
-
-// ((n, 2) lower left corners, (w, h) of the whole)
-std::pair<py::array, std::pair<double, double>> on_shelves(const Contiguous<double>& sizes, double width, double gap) {
-  const islands::Shelves made = islands::on_shelves(rows<double, 2>(sizes), width, gap);
-  py::array_t<double> corners({sizes.shape(0), py::ssize_t{2}});
-  std::copy_n(made.corners.data()->data(), sizes.size(), corners.mutable_data());
-  return {read_only(std::move(corners)), {made.whole[0], made.whole[1]}};
-}
-
-void bind_islands(py::module_& m) {
-  py::class_<Flattening>(m, "Flattening")
-      .def_property_readonly("scale_factors", [](const Flattening& flat) { return copy(flat.scale_factors); })
-      .def_property_readonly("is_flat", [](const Flattening& flat) { return copy(flat.is_flat); });
-  m.def("on_shelves", &on_shelves, py::arg("sizes"), py::arg("width"), py::arg("gap"));
-  m.def("cuts_to_disks", &cuts_to_disks, py::arg("surface"), py::arg("progress"));
-  m.def("filled", &filled, py::arg("surface"));
-  m.def("flattened", &flattened, py::arg("surface"), py::arg("threads"), py::arg("progress"));
-  m.def("evened_islands", &evened_islands, py::arg("surface"), py::arg("flattening"), py::arg("evenness"),
-        py::arg("threads"), py::arg("progress"));
-  m.def("parted", &parted, py::arg("surface"), py::arg("uv"), py::arg("progress"));
-  m.def("joined", &joined, py::arg("surface"), py::arg("uv"), py::arg("joints"), py::arg("is_joinable"),
-        py::arg("is_held"), py::arg("progress"));
-}
-
 void bind_records(py::module_& m) {
   using structure::LevelReport;
   using structure::MemoryPlan;
@@ -320,7 +203,6 @@ void bind_maps(py::module_& m) {
   bind_records(m);
   bind_uv_maps(m);
   bind_plane_maps(m);
-  bind_islands(m);
 }
 
 }  // namespace holomorph::bindings

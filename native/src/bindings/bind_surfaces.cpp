@@ -147,11 +147,6 @@ py::array edge_distances(const Surface& surface, const Contiguous<double>& lengt
   }));
 }
 
-py::array cut_without_sliver_parts(const Surface& surface, const Contiguous<bool>& is_cut) {
-  std::vector<char> cut(is_cut.data(), is_cut.data() + is_cut.size());
-  return copy(without_lock([&] { return mesh::cut_without_sliver_parts(surface, std::move(cut)); }));
-}
-
 // What reading and splitting give.
 void bind_parts(py::module_& m) {
   using mesh::Cut;
@@ -245,7 +240,6 @@ void bind_surfaces(py::module_& m) {
              mesh::refuse_wild_vertices(s.polygons);
            })
       .def("sliver_owners", [](const Surface& s) { return copy(without_lock([&] { return mesh::sliver_owners(s); })); })
-      .def("cut_without_sliver_parts", &cut_without_sliver_parts, py::arg("is_cut"))
       .def("area",
            [](const Surface& s) {
              Workers workers;

@@ -6,13 +6,17 @@
 #include <string>
 
 #include "base/execution.h"
+#include "uv/direction.h"
 
 namespace holomorph::bindings {
 
 void bind_surfaces(pybind11::module_& m);
+void bind_cuts(pybind11::module_& m);
 void bind_progressive_meshes(pybind11::module_& m);
 void bind_structures(pybind11::module_& m);
+void bind_islands(pybind11::module_& m);
 void bind_maps(pybind11::module_& m);
+void bind_quality(pybind11::module_& m);
 void bind_tilings(pybind11::module_& m);
 void bind_moduli(pybind11::module_& m);
 
@@ -39,5 +43,8 @@ inline Execution::Callback callback(const pybind11::object& progress) {
     return !is_true.load(answer, false) || static_cast<bool>(is_true);
   };
 }
+
+/// The axis that `Surface.up` names.
+inline uv::Up up_axis(const std::string& up) { return up == "Y" ? uv::Up::kY : uv::Up::kZ; }
 
 }  // namespace holomorph::bindings

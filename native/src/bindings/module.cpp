@@ -53,8 +53,11 @@ PYBIND11_MODULE(_native, m) {
   declare<Cancelled>(m, "Cancelled", base, "The progress function returned False.");
   declare_out_of_memory(m, base);
   bindings::bind_surfaces(m);
+  bindings::bind_cuts(m);
   bindings::bind_progressive_meshes(m);
   bindings::bind_maps(m);
+  bindings::bind_quality(m);
+  bindings::bind_islands(m);
   bindings::bind_structures(m);
   bindings::bind_tilings(m);
   bindings::bind_moduli(m);

@@ -4,50 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "mesh/half_edges.h"
-#include "mesh/surface_walk.h"
+#include "mesh/border_paths.h"
 #include "mesh/union_find.h"
 
 namespace holomorph::islands {
 namespace {
-
-// Part of the longest edge: edges are no shorter, so that a path goes on where two vertices are at one place.
-constexpr double kShortest = 1e-12;
-
-// The paths to the boundary along the edges of polygons.
-struct Forest {
-  std::vector<double> distances;    // #V; infinite where no path leads to a boundary
-  std::vector<int> edge_to_border;  // #V the first edge of the path, -1 at its end
-};
-
-Forest paths_to_border(const mesh::Surface& surface, Execution& execution) {
-  const auto half_edges = mesh::half_edges(surface, execution);
-  std::vector<double> lengths(surface.edge_lengths.begin(), surface.edge_lengths.end());
-  const double shortest = kShortest * *std::max_element(lengths.begin(), lengths.end());
-  for (double& length : lengths) length = std::max(length, shortest);
-  // Infinite lengths keep paths off the diagonals.
-  std::fill(lengths.begin() + surface.polygon_edge_count, lengths.end(), std::numeric_limits<double>::infinity());
-  std::vector<char> is_border(surface.vertex_count, 0);
-  for (std::size_t e = 0; e < surface.edges.size(); ++e) {
-    if (surface.edge_face_count[e] == 1) is_border[surface.edges[e][0]] = is_border[surface.edges[e][1]] = 1;
-  }
-  std::vector<int> sources;
-  for (int v = 0; v < surface.vertex_count; ++v) {
-    if (is_border[v]) sources.push_back(v);
-  }
-  Forest forest{mesh::graph_distances(half_edges, lengths, sources), std::vector<int>(surface.vertex_count, -1)};
-  for (int e = 0; e < surface.polygon_edge_count; ++e) {
-    for (int i = 0; i < 2; ++i) {
-      const int from = surface.edges[e][i], to = surface.edges[e][1 - i];
-      const double here = forest.distances[from], there = forest.distances[to];
-      // The first edge of a shortest path. Distances are sums of these same numbers, so that the equality is exact.
-      if (!is_border[from] && forest.edge_to_border[from] < 0 && std::isfinite(here) && there < here &&
-          there + lengths[e] == here)
-        forest.edge_to_border[from] = e;
-    }
-  }
-  return forest;
-}
 
 // Both polygons of each polygon's edge, -1 where there is none.
 std::vector<mesh::Pair> faces_of_edges(const mesh::Surface& surface) {
@@ -61,20 +22,15 @@ std::vector<mesh::Pair> faces_of_edges(const mesh::Surface& surface) {
 }
 
 // Marks the edge and the paths from its ends.
-void mark(const mesh::Surface& surface, const Forest& forest, int edge, std::vector<char>& is_cut) {
+void mark(const mesh::Surface& surface, const mesh::BorderPaths& paths, int edge, std::vector<char>& is_cut) {
   is_cut[edge] = 1;
-  for (int v : surface.edges[edge]) {
-    for (int step = forest.edge_to_border[v]; step >= 0 && !is_cut[step]; step = forest.edge_to_border[v]) {
-      is_cut[step] = 1;
-      v = surface.edges[step][0] == v ? surface.edges[step][1] : surface.edges[step][0];
-    }
-  }
+  for (const int v : surface.edges[edge]) paths.mark(surface, v, is_cut);
 }
 
 }  // namespace
 
 std::vector<char> cuts_to_disks(const mesh::Surface& surface, Execution& execution) {
-  const Forest forest = paths_to_border(surface, execution);
+  const mesh::BorderPaths forest = mesh::border_paths(surface, mesh::on_border(surface, {}), execution);
   const auto faces = faces_of_edges(surface);
   std::vector<char> is_in_forest(surface.edges.size(), 0), result(surface.edges.size(), 0);
   for (const int e : forest.edge_to_border) {

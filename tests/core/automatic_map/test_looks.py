@@ -105,7 +105,7 @@ def test_looks(name):
     made = automatic_map(surface)
     seconds = time.process_time() - begin
     quality = made.quality
-    low, high = quantiles(quality.area, quality._weights, (0.01, 0.99))
+    low, high = quantiles(quality.area, quality.weights, (0.01, 0.99))
     words = ", ".join(word for word in made.verdict.sentence.split(", ") if "seam" not in word and "pole" not in word)
     figures = quality.density_ratio, high / low, quality.mean_angle, seam_length(made)
     found = Looks(made.kind, len(made.poles), *figures, words)

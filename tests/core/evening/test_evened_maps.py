@@ -99,7 +99,7 @@ def test_squares_around_a_branch_point_are_evened_most(seed):
     w = ((points - [0.013, 0.017]) @ [1, 1j]) ** 2
     uv = np.stack([w.real, w.imag], axis=1)[native.corner_vertices]
     quality = Quality.of(native, evened(native, uv, 0.5), 1)
-    low, few, most, high = np.log(quantiles(quality.area, quality._weights, (0.01, 0.05, 0.95, 0.99)))
+    low, few, most, high = np.log(quantiles(quality.area, quality.weights, (0.01, 0.05, 0.95, 0.99)))
     assert high - low < 1.385 * (most - few)
 
 

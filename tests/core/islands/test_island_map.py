@@ -4,9 +4,8 @@ import families
 import holomorph
 import numpy as np
 import pytest
-from holomorph import InvalidMesh, Surface
-from holomorph.cutting.island_layout import Flattened
-from holomorph.cutting.island_map import HARD, IslandSearch, island_map
+from holomorph import Surface, _native
+from holomorph.cutting.island_map import IslandSearch, island_map
 from holomorph.mesh.edges import polygon_sides
 from solids import around, bracket, can, cone
 from solved import surface_of
@@ -259,29 +258,30 @@ def test_smooth_parts_keep_their_seamless_maps(name):
     assert made.kind == "tiling" and made.islands is None
 
 
-def test_islands_are_looked_for_as_far_as_they_may_be_worth_it(monkeypatch):
+def work_of(search):
+    """(what was found, operations)"""
+    before = _native.work()
+    return search(), _native.work() - before
+
+
+def test_islands_are_looked_for_as_far_as_they_may_be_worth_it():
     """By a bound of their cost, and by work; what is known is not looked for again."""
-    surface, flattened, calls = dome(1.9), Flattened.of, []
-    monkeypatch.setattr(Flattened, "of", lambda *given: calls.append(given) or flattened(*given))
-    wanted = island_map(surface, evenness=0.5)
-    count = len(calls)
-    assert count > 1 and IslandSearch(surface, HARD, 0.5, 0, True).best(0.5 * wanted.cost) is None
-    assert IslandSearch(surface, HARD, 0.5, 0, True).best(work=0) is None
-    calls.clear()
-    search = IslandSearch(surface, HARD, 0.5, 0, True)
-    assert search.best(2 * wanted.cost).cost == pytest.approx(wanted.cost, rel=1e-9) and len(calls) <= count
-    calls.clear()
-    assert search.best(1.5 * wanted.cost) is search.known and not calls
-
-
-def test_a_refusal_leaves_the_weights_of_a_search_as_they_were(monkeypatch):
     surface = dome(1.9)
-    wanted, search = island_map(surface, evenness=0.5), IslandSearch(surface, HARD, 0.5, 0, True)
+    wanted, most = work_of(lambda: island_map(surface, evenness=0.5))
+    assert most > 0 and IslandSearch(surface, 0.5, 0, True).best(0.5 * wanted.cost) is None
+    assert IslandSearch(surface, 0.5, 0, True).best(work=0) is None
+    search = IslandSearch(surface, 0.5, 0, True)
+    found, work = work_of(lambda: search.best(2 * wanted.cost))
+    assert found.cost == pytest.approx(wanted.cost, rel=1e-9) and work <= most
+    again, work = work_of(lambda: search.best(1.5 * wanted.cost))
+    assert again is search.known and work == 0
 
-    def refuse(*_given):
-        raise InvalidMesh("all faces have zero area")
 
-    with monkeypatch.context() as patched, pytest.raises(InvalidMesh):
-        patched.setattr(Flattened, "of", refuse)
-        search.at_once(0.1)
+def test_a_search_at_once_leaves_the_weights_as_they_were():
+    """Hard seams and direction count again, also after one that was cancelled."""
+    surface = dome(1.9)
+    wanted, search = island_map(surface, evenness=0.5), IslandSearch(surface, 0.5, 0, True)
+    with pytest.raises(holomorph.Cancelled):
+        search.at_once(0.1, lambda *_: False)
+    assert search.at_once(0.1) is None
     assert search.best().cost == wanted.cost

@@ -5,10 +5,10 @@ import holomorph
 import numpy as np
 import pytest
 from holomorph import Surface, automatic_map, automatic_maps
-from holomorph.cutting.island_cuts import sides_of
 from holomorph.maps.arrangement import Arrangement, arranged
 from holomorph.maps.pieces import Piece, closed, cut_apart, opened
 from holomorph.maps.report import part_report
+from holomorph.mesh.edges import following_corners, polygon_sides
 from holomorph.quality.quality import Quality
 from solved import surface_of
 
@@ -42,7 +42,8 @@ def mapped(request):
 
 def jumps(surface, uv):
     """(n, 2) of the UVs between neighbouring quads, at both ends of their edges."""
-    edges, following = sides_of(surface)
+    following, ends = following_corners(surface), np.sort(polygon_sides(surface), axis=1)
+    edges = ends[:, 0] * len(surface.vertices) + ends[:, 1]
     is_quad = np.repeat(np.diff(surface.face_offsets) == 4, np.diff(surface.face_offsets))
     order = np.argsort(np.where(is_quad, edges, -1), kind="stable")[np.count_nonzero(~is_quad) :]
     both = np.flatnonzero(edges[order[1:]] == edges[order[:-1]])

@@ -4,8 +4,7 @@ import families
 import numpy as np
 import pytest
 from holomorph import Cancelled, Surface, conformal_structure, free_boundary_map, islands
-from holomorph.quality import overlap
-from holomorph.quality.overlap import MOST_ROWS, overlapping_part
+from holomorph.quality.overlap import overlapping_part
 from holomorph.quality.verdicts import baking
 from solved import surface_of
 
@@ -56,16 +55,19 @@ def test_turns_size_and_mirrors_do_not_matter(turn):
 def test_a_narrow_overlap_is_found():
     """It is a hundredth of the height, which is many lines."""
     curve = np.concatenate([closed(finely(SQUARE)), closed(finely(np.add(SQUARE, 0.99j)))])
-    assert MOST_ROWS >= 256 * 8 and overlapping_part(curve) == pytest.approx(0.01 / 1.99, rel=0.1)
+    assert overlapping_part(curve) == pytest.approx(0.01 / 1.99, rel=0.1)
 
 
-@pytest.mark.parametrize("at_once", [1, 700, 10**9])
-def test_lines_may_be_looked_at_in_parts(monkeypatch, at_once):
-    whole = overlapping_part(OVERLAPPING_SQUARES)
-    monkeypatch.setattr(overlap, "AT_ONCE", (at_once, 0))
-    assert overlapping_part(OVERLAPPING_SQUARES) == pytest.approx(whole, rel=ROUNDING)
+def test_lines_are_looked_at_in_parts():
+    """The edges of a star cross all lines: more of them than have room at once."""
+    count, spikes = 8000, np.exp(2j * np.pi * np.arange(16_000) / 16_000) * np.tile([1, 0.01], 8000)
+    angle = 2 * np.pi / count / 2
+    part = overlapping_part(closed(spikes))
+    assert part == pytest.approx(0, abs=ROUNDING)
+    twice = overlapping_part(np.concatenate([closed(spikes), closed(spikes * np.exp(2j * angle))]))
+    assert twice == pytest.approx(1, abs=SAMPLED)
     with pytest.raises(Cancelled):
-        overlapping_part(OVERLAPPING_SQUARES, lambda *_: False)
+        overlapping_part(closed(spikes), lambda *_: False)
 
 
 def helix(turns, n=200):

@@ -7,9 +7,9 @@ import families
 import numpy as np
 import pytest
 from command_runs import run
-from holomorph import InvalidMesh, Surface, automatic_maps, disk_islands, island_map, islands
-from holomorph.mesh.cut_open import cut_open, on_border, paths_to_border
-from holomorph.mesh.hard_edges import bends, curvature
+from holomorph import InvalidMesh, Surface, _native, automatic_maps, disk_islands, island_map, islands
+from holomorph.mesh.cut_open import cut_open
+from holomorph.mesh.hard_edges import curvature
 from small_families import MESHES
 from solved import BOUNDED, CLOSED
 
@@ -107,7 +107,7 @@ def test_they_bend_no_edge(kind):
     """The hard edges of a cube are twelve right angles still."""
     length = 12.0
     surface = surface_of(families.with_slivers(families.cube(), 6, kind, seed=2))
-    lengths, bent = surface._native.edge_lengths, bends(surface)
+    lengths, bent = surface._native.edge_lengths, _native.bends(surface._native)
     assert np.all((bent < 1e-6) | (np.abs(bent - np.pi / 2) < 1e-6))
     size = np.linalg.norm(np.diff(families.cube().vertices[:2], axis=0))
     assert abs(lengths[bent > 1].sum() - length * size) < 1e-9 * length * size
@@ -171,11 +171,11 @@ def test_paths_go_on_between_two_vertices_at_one_place(seed):
     """From every vertex inside a tube the cut reaches its ends."""
     surface = surface_of(with_doubled_vertices(BOUNDED["tube"], seed))
     no_seam = np.zeros(len(surface._native.edges), bool)
-    is_border = on_border(surface, no_seam)
+    is_border = _native.on_border(surface._native, no_seam)
     for vertex in np.flatnonzero(~is_border):
-        path = paths_to_border(surface, is_border, np.arange(len(is_border)) == vertex)
+        path = _native.paths_to_border(surface._native, is_border, np.arange(len(is_border)) == vertex)
         assert cut_open(surface, path).boundary_count == surface.boundary_count
-        assert on_border(surface, path)[vertex]
+        assert _native.on_border(surface._native, path)[vertex]
 
 
 def test_a_flat_ring_stays_one_island_without_a_seam():

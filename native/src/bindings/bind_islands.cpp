@@ -1,0 +1,122 @@
+// Maps in islands, and how rectangles are packed.
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "bindings/arrays.h"
+#include "bindings/bindings.h"
+#include "islands/island_search.h"
+#include "islands/shelves.h"
+#include "islands/split_overlaps.h"
+
+namespace holomorph::bindings {
+namespace {
+
+using namespace pybind11::literals;
+using islands::Islands;
+using islands::IslandSearch;
+using SharedIslands = std::shared_ptr<const Islands>;
+
+// Keeps the surface.
+class Search {
+ public:
+  Search(std::shared_ptr<mesh::Surface> surface, double evenness, const std::string& up, bool is_upright)
+      : surface_(std::move(surface)) {
+    Execution execution;
+    const py::gil_scoped_release unlocked;
+    search_ =
+        std::make_unique<IslandSearch>(*surface_, islands::IslandOptions{evenness, up_axis(up), is_upright}, execution);
+  }
+
+  SharedIslands known() const { return search_->known(); }
+
+  SharedIslands best(double most, double work, int threads, const py::object& progress) {
+    Execution execution(threads, callback(progress));
+    const py::gil_scoped_release unlocked;
+    return search_->best(most, work, execution);
+  }
+
+  SharedIslands at_once(double most, int threads, const py::object& progress) {
+    Execution execution(threads, callback(progress));
+    const py::gil_scoped_release unlocked;
+    return search_->at_once(most, execution);
+  }
+
+ private:
+  std::shared_ptr<mesh::Surface> surface_;
+  std::unique_ptr<IslandSearch> search_;
+};
+
+// (#F,) the part of each polygon
+py::array parted(const mesh::Surface& surface, const Contiguous<double>& uv, const py::object& progress) {
+  const uv::UvArray flat = Eigen::Map<const uv::UvArray>(uv.data(), uv.shape(0), 2);
+  std::vector<int> parts;
+  Execution execution(1, callback(progress));
+  {
+    const py::gil_scoped_release unlocked;
+    execution.stage("overlaps", 0.0, 1.0);
+    parts = islands::parted(surface, flat, execution);
+  }
+  return give(std::move(parts));
+}
+
+py::array as_array(const std::vector<islands::Extent>& rows) {
+  py::array_t<double> result({static_cast<py::ssize_t>(rows.size()), py::ssize_t{2}});
+  std::copy_n(rows.data()->data(), result.size(), result.mutable_data());
+  return read_only(std::move(result));
+}
+
+// ((n, 2) lower left corners, (w, h) of the whole)
+std::pair<py::array, std::pair<double, double>> on_shelves(const Contiguous<double>& sizes, double width, double gap) {
+  const islands::Shelves made = islands::on_shelves(rows<double, 2>(sizes), width, gap);
+  return {as_array(made.corners), {made.whole[0], made.whole[1]}};
+}
+
+// ((n, 2) lower left corners, side)
+std::pair<py::array, double> pack(const Contiguous<double>& sizes, double margin) {
+  const islands::Packing made = islands::pack(rows<double, 2>(sizes), margin);
+  return {as_array(made.corners), made.side};
+}
+
+}  // namespace
+
+void bind_islands(py::module_& m) {
+  py::class_<Islands, std::shared_ptr<Islands>>(m, "Islands")
+      .def_property_readonly("uv", [](const Islands& made) { return copy(made.uv); })
+      .def_property_readonly("seams",
+                             [](const py::object& self) { return view(self.cast<const Islands&>().seams, self); })
+      .def_readonly("count", &Islands::count)
+      .def_readonly("soft_length", &Islands::soft_length)
+      .def_readonly("hard_length", &Islands::hard_length)
+      .def_readonly("quality", &Islands::quality)
+      .def_readonly("evenness", &Islands::evenness);
+  const auto mutable_one = [](const SharedIslands& made) { return std::const_pointer_cast<Islands>(made); };
+  py::class_<Search>(m, "IslandSearch")
+      .def(py::init<std::shared_ptr<mesh::Surface>, double, const std::string&, bool>(), "surface"_a, "evenness"_a,
+           "up"_a, "is_upright"_a)
+      .def_property_readonly("known", [=](const Search& search) { return mutable_one(search.known()); })
+      .def(
+          "best",
+          [=](Search& search, double most, double work, int threads, const py::object& progress) {
+            return mutable_one(search.best(most, work, threads, progress));
+          },
+          "most"_a, "work"_a, "threads"_a, "progress"_a)
+      .def(
+          "at_once",
+          [=](Search& search, double most, int threads, const py::object& progress) {
+            return mutable_one(search.at_once(most, threads, progress));
+          },
+          "most"_a, "threads"_a, "progress"_a);
+  m.attr("hard_angles") = py::make_tuple(islands::kHardAngles[0], islands::kHardAngles[1], islands::kHardAngles[2]);
+  m.attr("smooth_angle") = islands::kSmoothAngle;
+  m.attr("evened_cost") = islands::kEvenedCost;
+  m.def("parted", &parted, "surface"_a, "uv"_a, "progress"_a);
+  m.def("on_shelves", &on_shelves, "sizes"_a, "width"_a, "gap"_a);
+  m.def("pack", &pack, "sizes"_a, "margin"_a);
+  m.def("fitting_margin", &islands::fitting_margin, "margin"_a, "count"_a);
+}
+
+}  // namespace holomorph::bindings

@@ -1,0 +1,126 @@
+#include "mesh/cut_open.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+
+#include "mesh/make_surface.h"
+#include "mesh/slivers.h"
+#include "mesh/union_find.h"
+
+namespace holomorph::mesh {
+namespace {
+
+int next_side(int side) { return side % 3 == 2 ? side - 2 : side + 1; }
+
+// The two sides of each edge, 3 t + i, -1 where there is none.
+std::vector<Pair> sides_of_edges(const Surface& surface) {
+  std::vector<Pair> sides(surface.edges.size(), Pair{-1, -1});
+  for (int t = 0; t < std::ssize(surface.triangles); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      Pair& own = sides[surface.triangle_edges[t][i]];
+      own[own[0] < 0 ? 0 : 1] = 3 * t + i;
+    }
+  }
+  return sides;
+}
+
+// Names the fan of each triangle corner, 3 #T. The corner at the start of a side is followed by that of the triangle
+// across it: a fan is a path of corners, named by its end, or a cycle, named by its lowest.
+std::vector<int> fans(const Surface& surface, const std::vector<char>& is_cut) {
+  const int count = 3 * static_cast<int>(surface.triangles.size());
+  std::vector<int> following(count), before(count, -1), names(count, -1);
+  std::iota(following.begin(), following.end(), 0);
+  const std::vector<Pair> sides = sides_of_edges(surface);
+  for (std::size_t e = 0; e < sides.size(); ++e) {
+    const auto [one, other] = sides[e];
+    if (other < 0 || is_cut[e]) continue;
+    following[one] = next_side(other);
+    following[other] = next_side(one);
+  }
+  for (int c = 0; c < count; ++c) {
+    if (following[c] != c) before[following[c]] = c;
+  }
+  for (int c = 0; c < count; ++c) {
+    if (following[c] != c) continue;
+    for (int at = c; at >= 0 && names[at] < 0; at = before[at]) names[at] = c;
+  }
+  for (int c = 0; c < count; ++c) {
+    for (int at = c; names[at] < 0; at = following[at]) names[at] = c;
+  }
+  return names;
+}
+
+}  // namespace
+
+PartedVertices parted_vertices(const Surface& surface, const std::vector<char>& is_cut) {
+  const std::vector<int> names = fans(surface, is_cut);
+  const auto vertex_of = [&](int corner) { return surface.triangles[corner / 3][corner % 3]; };
+  // One corner of each fan has its name: sorted by vertices, they number the copies.
+  std::vector<int> first(surface.vertex_count + 1, 0);
+  for (int c = 0; c < std::ssize(names); ++c) {
+    if (names[c] == c) ++first[vertex_of(c) + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  PartedVertices result{std::vector<int>(first.back()), std::vector<Triple>(surface.triangles.size())};
+  std::vector<int> copy(names.size(), -1);
+  for (int c = 0; c < std::ssize(names); ++c) {
+    if (names[c] != c) continue;
+    copy[c] = first[vertex_of(c)]++;
+    result.vertices[copy[c]] = vertex_of(c);
+  }
+  for (int c = 0; c < std::ssize(names); ++c) result.of_triangles[c / 3][c % 3] = copy[names[c]];
+  return result;
+}
+
+OpenSurface cut_open(const Surface& surface, const std::vector<char>& is_cut, Execution& execution) {
+  PartedVertices parted = parted_vertices(surface, cut_without_sliver_parts(surface, is_cut));
+  Polygons polygons{{}, std::vector<int>(surface.polygons.corner_vertices.size()), surface.polygons.face_offsets};
+  for (const int v : parted.vertices) polygons.vertices.push_back(surface.polygons.vertices[v]);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) polygons.corner_vertices[surface.triangle_corners[t][i]] = parted.of_triangles[t][i];
+  }
+  return {make_surface(std::move(polygons), execution), std::move(parted.vertices)};
+}
+
+std::vector<int> parts(const Surface& surface, const std::vector<char>& is_cut) {
+  const std::vector<char> left = cut_without_sliver_parts(surface, is_cut);
+  const int count = static_cast<int>(surface.face_component.size());
+  UnionFind sets(count);
+  const std::vector<Pair> sides = sides_of_edges(surface);
+  for (std::size_t e = 0; e < sides.size(); ++e) {
+    if (sides[e][1] >= 0 && !left[e])
+      sets.join(surface.triangle_faces[sides[e][0] / 3], surface.triangle_faces[sides[e][1] / 3]);
+  }
+  std::vector<int> result(count);
+  int parts = 0;
+  for (int f = 0; f < count; ++f) result[f] = sets.lowest(f) == f ? parts++ : result[sets.lowest(f)];
+  return result;
+}
+
+std::vector<char> edges_between(const Surface& surface, const std::vector<int>& names) {
+  std::vector<char> result(surface.edges.size(), 0);
+  const std::vector<Pair> sides = sides_of_edges(surface);
+  for (std::size_t e = 0; e < sides.size(); ++e) {
+    const auto [one, other] = sides[e];
+    result[e] =
+        other >= 0 && names[surface.triangle_faces[one / 3]] != names[surface.triangle_faces[other / 3]] ? 1 : 0;
+  }
+  return result;
+}
+
+OrientedSurface in_one_orientation(const Surface& surface, Execution& execution) {
+  if (surface.repairs.reversed_faces.empty()) return {surface, {}};
+  std::vector<int> order(surface.polygons.corner_vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  Polygons polygons = surface.polygons;
+  for (const int f : surface.repairs.reversed_faces) {
+    const int begin = polygons.face_offsets[f], end = polygons.face_offsets[f + 1];
+    std::reverse(order.begin() + begin, order.begin() + end);
+    std::reverse(polygons.corner_vertices.begin() + begin, polygons.corner_vertices.begin() + end);
+  }
+  return {make_surface(std::move(polygons), execution), std::move(order)};
+}
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,139 @@
+#include "mesh/hard_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mesh/border_paths.h"
+#include "mesh/slivers.h"
+#include "mesh/union_find.h"
+
+namespace holomorph::mesh {
+namespace {
+
+using Point = std::array<double, 3>;
+
+// Radians, from which on a bend hides a seam; where it is less, in proportion.
+constexpr double kHiding = std::numbers::pi / 3;
+
+Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// Sums what is missing around vertices that edges without length join, at the lowest of them.
+void join_places(const Surface& surface, std::vector<double>& defects) {
+  UnionFind places(defects.size());
+  for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+    if (surface.edge_lengths[e] == 0) places.join(surface.edges[e][0], surface.edges[e][1]);
+  }
+  for (int v = 0; v < std::ssize(defects); ++v) {
+    const int lowest = places.lowest(v);
+    if (lowest == v) continue;
+    defects[lowest] += defects[v];
+    defects[v] = 0;
+  }
+}
+
+// 2 pi less the angles at each vertex, #V.
+std::vector<double> angle_defects(const Surface& surface) {
+  std::vector<double> sums(surface.vertex_count, 0.0);
+  bool has_points = false;
+  for (const Triple& triangle : surface.triangles) {
+    std::array<Point, 3> sides;
+    std::array<bool, 3> is_point{};
+    for (int i = 0; i < 3; ++i) {
+      sides[i] = difference(surface.polygons.vertices[triangle[(i + 1) % 3]], surface.polygons.vertices[triangle[i]]);
+      is_point[i] = sides[i] == Point{};
+      has_points = has_points || is_point[i];
+    }
+    for (int i = 0; i < 3; ++i) {
+      const Point& back = sides[(i + 2) % 3];
+      double angle = angle_between(sides[i], {-back[0], -back[1], -back[2]});
+      // A side without length, at whose ends the angles are a right one each in the limit.
+      if (is_point[i] || is_point[(i + 2) % 3]) angle += std::numbers::pi / 2;
+      sums[triangle[i]] += angle;
+    }
+  }
+  for (double& sum : sums) sum = 2 * std::numbers::pi - sum;
+  if (has_points) join_places(surface, sums);
+  return sums;
+}
+
+}  // namespace
+
+double angle_between(const Point& a, const Point& b) {
+  const Point normal = cross(a, b);
+  // A product may be -0 where a vector is 0; the angle is 0 then.
+  return std::atan2(std::sqrt(dot(normal, normal)), 0.0 + dot(a, b));
+}
+
+std::vector<Point> triangle_normals(const Surface& surface) {
+  std::vector<Point> result(surface.triangles.size());
+  const auto& points = surface.polygons.vertices;
+  for (std::size_t t = 0; t < result.size(); ++t) {
+    const auto& [a, b, c] = surface.triangles[t];
+    result[t] = cross(difference(points[b], points[a]), difference(points[c], points[a]));
+  }
+  return result;
+}
+
+std::vector<EdgeFaces> inner_edges(const Surface& surface) {
+  std::vector<Pair> faces(surface.edges.size(), Pair{-1, -1});
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (const int e : surface.triangle_edges[t]) faces[e][faces[e][0] < 0 ? 0 : 1] = surface.triangle_faces[t];
+  }
+  std::vector<EdgeFaces> result;
+  for (int e = 0; e < std::ssize(faces); ++e) {
+    if (faces[e][1] >= 0) result.push_back({e, faces[e][0], faces[e][1]});
+  }
+  return result;
+}
+
+std::vector<Point> face_normals(const Surface& surface) {
+  std::vector<Point> sums(surface.face_component.size(), Point{});
+  const auto normals = triangle_normals(surface);
+  for (std::size_t t = 0; t < normals.size(); ++t) {
+    for (int i = 0; i < 3; ++i) sums[surface.triangle_faces[t]][i] += normals[t][i];
+  }
+  for (Point& normal : sums) {
+    const double size = std::sqrt(dot(normal, normal));
+    for (double& x : normal) x = size > 0 ? x / size : 0;
+  }
+  const std::vector<int> owners = sliver_owners(surface);
+  std::vector<Point> result(sums.size());
+  for (std::size_t f = 0; f < sums.size(); ++f) result[f] = sums[owners[f]];
+  return result;
+}
+
+std::vector<double> bends(const Surface& surface) {
+  const std::vector<Point> normals = face_normals(surface);
+  std::vector<double> result(surface.edges.size(), 0.0);
+  for (const auto& [edge, one, other] : inner_edges(surface))
+    result[edge] = angle_between(normals[one], normals[other]);
+  return result;
+}
+
+double seen(double breaks_off) { return std::max(1 - breaks_off / kHiding, 0.0); }
+
+std::vector<char> cuts_to_tips(const Surface& surface, const std::vector<char>& is_seam, Execution& execution) {
+  const std::vector<char> is_border = on_border(surface, is_seam);
+  const std::vector<double> defects = angle_defects(surface);
+  std::vector<char> tips(surface.vertex_count);
+  for (int v = 0; v < surface.vertex_count; ++v) tips[v] = std::abs(defects[v]) > kTip && !is_border[v] ? 1 : 0;
+  return paths_to_border(surface, is_border, tips, execution);
+}
+
+double curvature(const Surface& surface, const std::vector<char>& is_seam, double most) {
+  const std::vector<char> is_border = on_border(surface, is_seam);
+  const std::vector<double> defects = angle_defects(surface);
+  double sum = 0;
+  for (int v = 0; v < surface.vertex_count; ++v) {
+    const double missing = std::abs(defects[v]);
+    if (!is_border[v] && missing <= most) sum += missing;
+  }
+  return sum;
+}
+
+}  // namespace holomorph::mesh
