@@ -309,9 +309,9 @@ MUTATIONS = (
     | of(PACKAGE + "maps/mixed.py", ("cones-cost", "self.hard_length, cones)", "self.hard_length)", ASKED))
     | of(PACKAGE + "batch/textured.py", ("centre-of-turns", "+ np.array(found.centre) / images", "", GLB))
     | of(
-        PACKAGE + "tiling/mirrored.py",
-        ("mirror-jumps", "along[right] * np.conj(along[left])", "along[left] * np.conj(along[right])", MIRRORED),
+        ROOM + "turns/mirrored.cpp",
+        ("mirror-jumps", "low[1]) * std::conj(high[0]", "low[0]) * std::conj(high[1]", MIRRORED),
     )
-    | of(PACKAGE + "mesh/mirror.py", ("mirror-side", "following_corners(surface)[order[at]]", "order[at]", MIRRORED))
-    | of(PACKAGE + "tiling/turned.py", ("lines-ends", "MOST_ENDS = 0.02", "MOST_ENDS = 0.2", LINES))
+    | of(ROOM + "mesh/mirror.cpp", ("mirror-side", "= following[at->second]", "= at->second", MIRRORED))
+    | of(ROOM + "turns/turned_tiling.cpp", ("lines-ends", "kMostEnds = 0.02", "kMostEnds = 0.2", LINES))
 )

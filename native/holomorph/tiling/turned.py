@@ -13,32 +13,25 @@ from .. import _native
 from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import Integers, Progress
-from ..core.value import percent, quoted
+from ..core.value import quoted
 from ..mesh.checks import check_threads, checked_evenness, only_component, own_vertices, real_number
-from ..mesh.edges import are_among, boundary_edges
-from ..mesh.hard_edges import is_hard
+from ..mesh.edges import boundary_edges
 from ..mesh.origin import edges_on_part
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from .image_turns import image_turns
-from .mirrored import Half, jumps_of
 from .tilings import LATTICES, UPRIGHT, Rounding, Tiling, along
 
 TURNS = (1, 2, 4, 6)
 AUTO = "auto"  # those of the texture
 LATTICE = {2: "square", 4: "square", 6: "hex"}  # of which a turn by this part of a full one is a symmetry
-PRICE = 2e-4  # of a cone: what it is to take off the mean square of the logarithm of the scale
 LINED_TURNS = (2, 4)  # lines cross at right angles
 WHOLE = 1e-6  # part of a turn: less is rounding
 MOST_PARTS = 1200  # of a turn around one cone: all that any use has, and no sum of them overflows
-MOST_LOST = 0.5  # part of the area: nothing is left to look at
 EDGED, MIRROR = ("whole", "free"), "mirror"  # lines along edges, and the one between two halves that are alike
 LINES = ("none", *EDGED, MIRROR)
+NO_EDGES = np.empty((0, 2), np.int32)
 AUTOMATIC = "automatic"  # the lines that cost little
-HARD = 40.0  # degrees by which a surface bends at an edge that is to be a line
-MOST_ENDS = 0.02  # of chains, for each of their edges
-MOST_OF_NET = 1.75  # edges for each vertex that they meet: a cube has 1.5, all edges of a mesh 2 or 3
-USUAL_TILES, TILES_PER_HANDLE = 400, 64  # by default, at least
 
 
 class TurnedTiler:
@@ -72,22 +65,16 @@ class TurnedTiler:
     ) -> None:
         self._surface, self._component, self._threads = surface, only_component(surface), check_threads(threads or None)
         vector, _ = along(direction, None, self._component)
-        self._turns, self._tiles = turns, float(max(USUAL_TILES, TILES_PER_HANDLE * self._component.genus))
-        self._half = Half(self._component) if lines == MIRROR and cones is None else None
-        edges = self._half.lines if self._half else []
-        if lines in EDGED:
-            edges = lines_of(self._component, self._own_edges(marked))
-        self._lines = lines if len(edges) else "none"
-        self._is_upright = isinstance(direction, str)
-        self._maps = _native.TurnedMaps(
-            self._half.native if self._half else self._component._native,
+        self._turns, self._rows = turns, lines
+        own = self._own_edges(marked)
+        self._native = _native.TurnedTiler(
+            self._component._native,
             turns=turns,
-            price=PRICE,
             direction=vector,
             is_of_u=not isinstance(direction, str),
-            tiles=self._tiles / self._parts,
-            lines=edges,
-            whole_lines=lines in ("whole", MIRROR),
+            up=self._component.up,
+            lines=lines,
+            marked=NO_EDGES if own is None else own,
             chosen=[] if cones is None else self._missing(cones),
         )
 
@@ -95,30 +82,11 @@ class TurnedTiler:
         """A `Tiling` with about this number of tiles; default: one that suits the genus. Raises
         TopologyError where most of the surface would collapse; SolverError, Cancelled."""
         evenness = checked_evenness(evenness)
-        tiles = self._tiles if tiles is None else real_number(tiles, "tiles", positive=True)
-        uv, before, jumps, cones, missing = _native.turned_map(
-            self._maps, tiles=tiles / self._parts, evenness=evenness, threads=self._threads, progress=progress
-        )
-        if self._half:
-            cones, missing = self._half.cones(cones, missing, uv, self._turns)
-            uv, before = self._half.unfolded(uv), self._half.unfolded(before)
-            jumps = jumps_of(self._component, uv, self._turns)
-        lattice = np.array([[z.real, z.imag] for z in LATTICES[LATTICE[self._turns]]]).T.astype(float)
-        if self._turns == 6:
-            uv, before = (np.ascontiguousarray(of @ lattice.T) for of in (uv, before))
-        quality = Quality.of(self._component._native, uv, self._threads)
-        if self._is_upright:
-            quality = quality.upright(uv, self._component.up, self._turns)
-        if evenness > 0:
-            quality = quality.evened_from(Quality.of(self._component._native, before, self._threads), evenness)
-        if quality.lost_part > MOST_LOST:
-            raise TopologyError(
-                f"with {tiles:.4g} tiles that turn {percent(quality.lost_part)} of this surface would be "
-                "flipped or collapse: take more tiles, or turns=1"
-            )
-        edges = self._component._native.edges
+        tiles = self._native.usual_tiles() if tiles is None else real_number(tiles, "tiles", positive=True)
+        made = self._native.tile(tiles, evenness=evenness, threads=self._threads, progress=progress)
+        jumps, missing, native = made.jumps(), made.missing(), self._component._native
         return Tiling(
-            uv=arrays.frozen(uv),
+            uv=made.uv(),
             periods=arrays.frozen(np.empty((0, 2), np.int64)),
             poles=arrays.frozen(np.empty(0, np.int64)),
             residues=arrays.frozen(np.empty(0, complex)),
@@ -129,14 +97,14 @@ class TurnedTiler:
             optimal_size_range=1.0,
             rounding=Rounding(2 * len(missing), 1, 0, 1.0),
             tiles=tiles,
-            quality=quality,
-            seams=self._of_surface(edges[jumps[:, 0]]),
-            lattice=arrays.frozen(lattice),
+            quality=Quality._of(made.quality, native, self._component.up),
+            seams=self._of_surface(native.edges[jumps[:, 0]]),
+            lattice=arrays.frozen(np.array([[z.real, z.imag] for z in LATTICES[LATTICE[self._turns]]]).T.astype(float)),
             turns=self._turns,
-            cones=self._of_surface(cones),
+            cones=self._of_surface(made.cones()),
             cone_angles=arrays.frozen(1 - missing / self._turns),
             jumps=arrays.frozen(jumps[:, 1:]),
-            lines=self._lines,
+            lines=self._rows if made.has_lines() else "none",
         )
 
     def _missing(self, cones):
@@ -158,10 +126,6 @@ class TurnedTiler:
             raise TopologyError(f"vertex {list(cones)[edge[0]]} is on the boundary, where no cone can be")
         return missing
 
-    @property
-    def _parts(self):
-        return 2 if self._half else 1
-
     def _own_edges(self, ends):
         if ends is None:
             return None
@@ -174,28 +138,16 @@ class TurnedTiler:
 
 
 def lines_of(surface: Surface, marked: ArrayLike | None = None) -> Integers:
-    """The edges that lines of the lattice run along: long chains of hard edges, and smooth boundaries, ascending. None
-    of these where chains end here and there: that is noise of a scan, or folds.
+    """The edges that lines of the lattice run along: long chains of hard edges, and smooth boundaries, ascending.
 
     marked : (n, 2) vertices of the surface: edges that are lines in any case, unless they are most of the mesh's
     """
-    ends = surface._native.edges
-    edges = _native.long_lines(surface._native, np.flatnonzero(is_hard(surface, HARD)))
-    edges = edges if are_whole(ends[edges]) and not _is_net(ends[edges]) else edges[:0]
-    if marked is None or not len(marked) or _is_net(marked):
-        return edges
-    return np.union1d(edges, np.flatnonzero(are_among(ends, marked, surface._native.vertex_count)))
+    return _native.found_lines(surface._native, NO_EDGES if marked is None else marked)
 
 
 def are_whole(ends: Integers) -> bool:
     """Whether few chains end, of edges with these (n, 2) vertices."""
-    return np.count_nonzero(np.bincount(ends.ravel()) == 1) <= MOST_ENDS * len(ends)
-
-
-def _is_net(ends):
-    """Whether edges with these (n, 2) vertices are those of faces that lie side by side, as all are of a mesh that is
-    shaded flat."""
-    return len(ends) > MOST_OF_NET * len(np.unique(ends))
+    return _native.are_whole(ends)
 
 
 def checked_lines(lines: Any, turns: int, *others: str) -> str:

@@ -11,7 +11,7 @@
 //   const auto uv = structure::uv_map(found, *forms, c, execution);  // #corners x 2
 //
 // The last four lines are structure::balanced_map(part, options, execution). Seamless tilings are tiling::place and
-// tiling::tile, those that turn turns::TurnedMaps; islands::island_map cuts at hard edges. uv::quality measures any
+// tiling::tile, those that turn turns::TurnedTiler; islands::island_map cuts at hard edges. uv::quality measures any
 // map, and uv::cost says what an eye minds of it. Errors are the exceptions of base/errors.h.
 #pragma once
 
@@ -33,7 +33,7 @@
 #include "structure/primal_forms.h"
 #include "structure/structure.h"
 #include "tiling/tiling.h"
-#include "turns/turned_map.h"
+#include "turns/turned_tiling.h"
 #include "uv/appearance.h"
 #include "uv/distortion.h"
 #include "uv/quality.h"

@@ -13,7 +13,7 @@
 #include "tiles/relief.h"
 #include "tiles/sharp_zones.h"
 #include "tiling/tiling.h"
-#include "turns/turned_map.h"
+#include "turns/turned_tiling.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -60,37 +60,63 @@ Tiling evened(const Tiling& made, double evenness, int threads, const py::object
   return unlocked(threads, progress, [&](Execution& execution) { return tiling::evened(made, evenness, execution); });
 }
 
-std::unique_ptr<turns::TurnedMaps> turned_maps(const std::shared_ptr<mesh::Surface>& surface, int turns, double price,
-                                               std::optional<std::array<double, 3>> direction, bool is_of_u,
-                                               double tiles, std::vector<int> lines, bool whole_lines,
-                                               std::vector<int> chosen) {
-  turns::ConeOptions options{turns, price, {}, tiles};
-  if (direction) options.along = {*direction, is_of_u};
-  return std::make_unique<turns::TurnedMaps>(surface, options, turns::Lines{std::move(lines), whole_lines},
-                                             std::move(chosen));
+turns::Rows rows_named(const std::string& lines) {
+  if (lines == "whole") return turns::Rows::kWhole;
+  if (lines == "free") return turns::Rows::kFree;
+  return lines == "mirror" ? turns::Rows::kMirror : turns::Rows::kNone;
 }
 
-std::array<py::array, 5> turned_map(turns::TurnedMaps& maps, double tiles, double evenness, int threads,
-                                    const py::object& progress) {
-  const turns::TurnedMap made =
-      unlocked(threads, progress, [&](Execution& execution) { return maps.turned_map(tiles, evenness, execution); });
-  Eigen::Matrix<std::int64_t, Eigen::Dynamic, 4, Eigen::RowMajor> jumps(std::ssize(made.jumps), 4);
-  for (Eigen::Index i = 0; i < jumps.rows(); ++i) {
-    const turns::Jump& jump = made.jumps[i];
-    jumps.row(i) << jump.edge, jump.turn, jump.translation[0], jump.translation[1];
+std::unique_ptr<turns::TurnedTiler> turned_tiler(const std::shared_ptr<mesh::Surface>& surface, int turns,
+                                                 std::optional<std::array<double, 3>> direction, bool is_of_u,
+                                                 const std::string& up, const std::string& lines,
+                                                 const Contiguous<int>& marked, std::vector<int> chosen, double price) {
+  turns::TilerOptions options{turns, {}, up_axis(up), rows_named(lines), rows<int, 2>(marked), std::move(chosen),
+                              price};
+  if (direction) options.along = turns::Along{*direction, is_of_u};
+  return unlocked(1, py::none(), [&](Execution& execution) {
+    return std::make_unique<turns::TurnedTiler>(surface, options, execution);
+  });
+}
+
+turns::TurnedTiling turned_tiling(turns::TurnedTiler& tiler, std::optional<double> tiles, double evenness, int threads,
+                                  const py::object& progress) {
+  return unlocked(threads, progress, [&](Execution& execution) {
+    return tiler.tile(tiles.value_or(tiler.usual_tiles()), evenness, execution);
+  });
+}
+
+// (#S, 4) edges, turns and translations
+py::array jumps(const turns::TurnedTiling& made) {
+  Eigen::Matrix<std::int64_t, Eigen::Dynamic, 4, Eigen::RowMajor> result(std::ssize(made.map.jumps), 4);
+  for (Eigen::Index i = 0; i < result.rows(); ++i) {
+    const turns::Jump& jump = made.map.jumps[i];
+    result.row(i) << jump.edge, jump.turn, jump.translation[0], jump.translation[1];
   }
-  return {copy(made.uv), copy(made.before), copy(jumps), copy(made.cones), copy(made.missing)};
+  return give_matrix(std::move(result));
 }
 
-void bind_turned_map(py::module_& m) {
-  py::class_<turns::TurnedMaps>(m, "TurnedMaps")
-      .def(py::init(&turned_maps), "surface"_a, py::kw_only(), "turns"_a, "price"_a, "direction"_a, "is_of_u"_a,
-           "tiles"_a, "lines"_a, "whole_lines"_a, "chosen"_a);
+void bind_turned_tiling(py::module_& m) {
+  using turns::TurnedTiling;
+  py::class_<TurnedTiling>(m, "TurnedTiling")
+      .def("uv", [](const TurnedTiling& made) { return copy(made.map.uv); })
+      .def("jumps", &jumps)
+      .def("cones", [](const TurnedTiling& made) { return copy(made.map.cones); })
+      .def("missing", [](const TurnedTiling& made) { return copy(made.map.missing); })
+      .def("has_lines", [](const TurnedTiling& made) { return made.rows != turns::Rows::kNone; })
+      .def_readonly("quality", &TurnedTiling::quality);
+  py::class_<turns::TurnedTiler>(m, "TurnedTiler")
+      .def(py::init(&turned_tiler), "surface"_a, py::kw_only(), "turns"_a, "direction"_a, "is_of_u"_a, "up"_a,
+           "lines"_a, "marked"_a, "chosen"_a, "price"_a = turns::TilerOptions().price)
+      .def("usual_tiles", &turns::TurnedTiler::usual_tiles)
+      .def("tile", &turned_tiling, "tiles"_a, py::kw_only(), "evenness"_a, "threads"_a, "progress"_a);
   m.def(
-      "long_lines",
-      [](const mesh::Surface& surface, const std::vector<int>& hard) { return copy(turns::long_lines(surface, hard)); },
-      "surface"_a, "hard"_a);
-  m.def("turned_map", &turned_map, "maps"_a, py::kw_only(), "tiles"_a, "evenness"_a, "threads"_a, "progress"_a);
+      "found_lines",
+      [](const mesh::Surface& surface, const Contiguous<int>& marked) {
+        return give(turns::found_lines(surface, rows<int, 2>(marked)));
+      },
+      "surface"_a, "marked"_a);
+  m.def(
+      "are_whole", [](const Contiguous<int>& ends) { return turns::are_whole(rows<int, 2>(ends)); }, "ends"_a);
 }
 
 void bind_tiling(py::module_& m) {
@@ -296,7 +322,7 @@ void bind_tiles(py::module_& m) {
 
 void bind_tilings(py::module_& m) {
   bind_tiling(m);
-  bind_turned_map(m);
+  bind_turned_tiling(m);
   bind_tiles(m);
 }
 

@@ -1,0 +1,66 @@
+// Tilings whose sides of a cut may also turn, by the symmetry of the texture: cones take the place of poles.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "turns/mirrored.h"
+#include "turns/turned_map.h"
+#include "uv/direction.h"
+#include "uv/quality.h"
+
+namespace holomorph::turns {
+
+/// Which rows are lines: none; those along hard edges and smooth boundaries, which end there as well (whole) or lie
+/// anywhere across them (free); those in the plane between two halves that are alike.
+enum class Rows { kNone, kWhole, kFree, kMirror };
+
+struct TilerOptions {
+  int turns = 4;  ///< 2, 4 or 6: the texture looks the same after a half, a quarter or a sixth turn
+  /// Along which u runs, or what is up for rows that run level, as far as they can; none: any direction
+  std::optional<Along> along;
+  uv::Up up = uv::Up::kZ;
+  Rows rows = Rows::kNone;
+  std::vector<mesh::Pair> marked;  ///< vertices of edges that are lines besides those that are found
+  std::vector<int> chosen;         ///< #V, k-th turns that are missing around cones; empty where these are searched for
+  double price = 2e-4;             ///< of a cone: what it is to take off the mean square of the logarithm of the scale
+};
+
+struct TurnedTiling {
+  TurnedMap map;  ///< its UVs in the plane: the unit square is one tile, of the hexagonal lattice for sixth turns
+  Rows rows = Rows::kNone;
+  uv::Quality quality;
+};
+
+/// Makes turned tilings of a surface. Their cones are searched for by the first one, and kept for others with about as
+/// many tiles.
+class TurnedTiler {
+ public:
+  /// @pre connected. @throws TopologyError for a surface without positions, for cones that it cannot have, and for one
+  /// that should mirror itself and does not
+  TurnedTiler(std::shared_ptr<const mesh::Surface> surface, const TilerOptions& options, Execution& execution);
+
+  /// The number of tiles that suits the genus.
+  double usual_tiles() const { return usual_tiles_; }
+
+  /// @throws TopologyError where most of the surface would collapse; SolverError; Cancelled
+  TurnedTiling tile(double tiles, double evenness, Execution& execution);
+
+ private:
+  std::shared_ptr<const mesh::Surface> surface_;
+  TilerOptions options_;
+  double usual_tiles_;
+  std::optional<Half> half_;
+  std::optional<TurnedMaps> maps_;
+};
+
+/// The edges that lines of the lattice run along, ascending: long chains of hard edges, and smooth boundaries. None of
+/// these where chains end here and there: that is noise of a scan, or folds.
+/// @param marked vertices of edges that are lines in any case, unless they are most of the mesh's
+std::vector<int> found_lines(const mesh::Surface& surface, const std::vector<mesh::Pair>& marked);
+
+/// Whether few chains end, of edges with these vertices.
+bool are_whole(const std::vector<mesh::Pair>& ends);
+
+}  // namespace holomorph::turns
