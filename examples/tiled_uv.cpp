@@ -16,9 +16,9 @@ int main(int argc, char** argv) try {
   options.tiles = 64;
   options.evenness = holomorph::evening::kUsualEvenness;
   const auto made = tile(place(part, poles, execution), options, execution);  // made.uv: #corners x 2
-  const auto found = holomorph::uv::quality(*made.conformal->structure->surface, made.uv, execution.workers());
+  const auto found = quality(made, {}, execution);
   std::cout << std::setprecision(17) << made.conformal->poles.size() << " poles, angle distortion " << found.mean_angle
-            << ", size range " << std::sqrt(found.density_ratio) << "\n";
+            << ", size range " << std::sqrt(found.density_ratio) << ", cost " << holomorph::uv::cost(found) << "\n";
 } catch (const holomorph::Error& error) {
   std::cerr << error.what() << "\n";
   return 1;

@@ -8,6 +8,7 @@ import families
 import holomorph
 import numpy as np
 import pytest
+from holomorph.quality.appearance import cost
 from programs import output
 from repository import ROOT
 
@@ -72,7 +73,8 @@ def test_each_way_gives_the_tiling_of_the_python_package(program, name, tmp_path
     made = tiler.tile(64, evenness=0.5, direction=None)
     quality = made.quality
     expected = (
-        f"{len(made.poles)} poles, angle distortion {quality.mean_angle:.17g}, size range {quality.size_range:.17g}"
+        f"{len(made.poles)} poles, angle distortion {quality.mean_angle:.17g}, size range {quality.size_range:.17g}, "
+        f"cost {cost(quality):.17g}"
     )
     assert output(program, tmp_path / "mesh.obj").strip() == expected
 

@@ -11,8 +11,7 @@ from .. import _native
 from ..core import arrays
 from ..core.array_types import Flags, Integers, Reals
 from ..cutting.island_layout import Islands
-from ..mesh.cut_open import cut_open
-from ..mesh.edges import around_boundary, boundary_edges, edge_keys
+from ..mesh.edges import boundary_edges, edge_keys
 from ..mesh.hard_edges import TIP, breaks, curvature
 from ..mesh.origin import Origin
 from ..mesh.surface import Surface
@@ -21,9 +20,7 @@ from ..quality.quality import Quality
 from .map import Map
 from .untiled import FLAT, MOST_CURVED, MOST_SOFT
 
-REST = -1  # name of polygons that are looked at with others
-SPECK = 0.01  # part of the area: less than that beside a piece does not divide a part
-WORTH = 0.03  # part of the area, from which on a piece is looked at by itself
+REST = _native.rest  # name of polygons that are looked at with others
 SMOOTH = 1.0  # radians of curvature without tips, from which on a piece that is not a tube is more than sheets, cones
 TUBES = 0.5  # part of the area of a part without islands, from which on its tubes are looked at
 ENDS = 2  # the longest boundary loops of a tube
@@ -45,34 +42,19 @@ class Piece:
     def turn(self, uv: Reals) -> float:
         """Radians by which rows of squares of the islands turn against those of another map of the piece, in the mean
         over the area; 0 without islands."""
-        if self.uv is None:
-            return 0.0
-        own, other = ((each @ [1, 1j])[self.surface.triangle_corners] for each in (self.uv, uv))
-        sides = other[:, 1:] - other[:, :1]
-        areas = np.abs((np.conj(sides[:, 0]) * sides[:, 1]).imag)
-        centred = own - own.mean(axis=1, keepdims=True)
-        rotations = np.angle((np.conj(centred) * other).sum(axis=1))  # the best one of each triangle
-        mean = (areas * np.exp(4j * rotations)).sum()  # squares look the same after a quarter turn
-        off = np.abs(np.angle(np.exp(4j * rotations) * np.conj(mean))) / 4
-        return float(np.average(off, weights=areas)) if areas.any() else 0.0
+        return 0.0 if self.uv is None else _native.turn_between(self.surface._native, self.uv, uv)
 
 
 def names_of_pieces(surface: Surface, is_hard_edge: Flags) -> Integers:
     """(#F,) the piece of each polygon, from 0 on: hard edges, (#E,), that end within one do not divide it. Those of
-    less than `WORTH` of the area are `REST`."""
-    names = _native.parts(surface._native, is_hard_edge)
-    a, b, c = np.moveaxis(surface.vertices[surface.triangles], 1, 0)
-    areas = np.bincount(names[surface.triangle_faces], np.linalg.norm(np.cross(b - a, c - a), axis=1))
-    if areas.max() > (1 - SPECK) * areas.sum():
-        return np.zeros_like(names)
-    return np.where((areas >= WORTH * areas.sum())[names], names, REST)
+    little area are `REST`."""
+    return _native.names_of_pieces(surface._native, is_hard_edge)
 
 
 def cut_apart(surface: Surface, names: Integers) -> tuple[Surface, ...]:
     """The components of a surface that is cut between polygons of different names, (#F,). They count as it does."""
-    native, order = _native.in_one_orientation(surface._native)
-    origin = Origin(corner_index=order, vertex_count=len(surface.vertices), up=surface.up)
-    return cut_open(Surface._of(native, origin), _native.edges_between(native, names)).components
+    count, parts = len(surface.vertices), _native.cut_apart(surface._native, names)
+    return tuple(Surface._of(native, Origin(*own, vertex_count=count, up=surface.up)) for native, *own in parts)
 
 
 def smooth_pieces(surface: Surface, flat: Islands | None, names: Integers, threads: int) -> list[Piece]:
@@ -121,18 +103,9 @@ def closed(surface: Surface) -> Surface:
 
     Raises InvalidMesh where a window is not a polygon.
     """
-    start, end = boundary_edges(surface).T
-    names = _loops(start, end, len(surface.vertices))
-    sides = np.linalg.norm(surface.vertices[end] - surface.vertices[start], axis=1)
-    loops, first = np.unique(names, return_inverse=True)
-    lengths = np.bincount(first, np.round(sides / sides.max(), 9))
-    windows = loops[np.lexsort((loops, -lengths))][ENDS:]
-    if not len(windows):
+    if surface.boundary_count <= ENDS:
         return surface
-    polygons = [around_boundary(surface, start[names == name])[::-1] for name in windows]
-    corners = np.concatenate([surface.corner_vertices, *polygons])
-    offsets = np.concatenate([surface.face_offsets, len(surface.corner_vertices) + np.cumsum([*map(len, polygons)])])
-    return Surface.from_polygons(surface.vertices, corners, offsets)._standing_as(surface)
+    return Surface._of(_native.without_windows(surface._native))._standing_as(surface)
 
 
 def opened(made: Map, surface: Surface) -> Map:
@@ -156,13 +129,3 @@ def _inside(tiling, surface):
     parts = {"seams": tiling.seams[is_seam], "cones": tiling.cones[is_cone], "cone_angles": tiling.cone_angles[is_cone]}
     parts["jumps"] = tiling.jumps[is_seam] if len(tiling.jumps) else tiling.jumps
     return replace(tiling, **{name: arrays.frozen(values) for name, values in parts.items()})
-
-
-def _loops(start, end, count):
-    """The lowest vertex of the loop of each edge, by pointer doubling."""
-    following = np.arange(count)
-    following[start] = end
-    lowest = np.minimum(np.arange(count), following)
-    for _ in range(len(start).bit_length()):
-        lowest, following = np.minimum(lowest, lowest[following]), following[following]
-    return lowest[start]

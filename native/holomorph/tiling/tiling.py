@@ -180,6 +180,8 @@ class Tiler:
 
     def _tiling(self, made, evenness, is_upright):
         uv, triangulation, zeros = made.uv(), made.surface(), made.zeros()
+        up = self._component.up if is_upright and not triangulation.intrinsic else None
+        found = _native.quality_of_tiling(made, up=up, threads=self._threads)
         basis, jumps = (np.array([z.real, z.imag]) for z in (made.lattice(), made.periods().ravel()))
         periods = np.linalg.solve(basis, jumps)
         tiling = Tiling(
@@ -194,21 +196,12 @@ class Tiler:
             optimal_size_range=self.poles.size_range,
             rounding=Rounding(*made.rounding()),
             tiles=made.tiles(),
-            quality=self._quality(made, evenness, is_upright),
+            quality=Quality._of(found, triangulation, self._component.up),
             seams=self._of_surface(triangulation.edges[made.seams()]),
             lattice=arrays.frozen(basis.copy()),
         )
         self._made[tiling] = made
         return tiling
-
-    def _quality(self, made, evenness, is_upright):
-        after = Quality.of(made.surface(), made.uv(), self._threads)
-        if is_upright:
-            after = after.upright(made.uv(), self._component.up)
-        if evenness == 0:
-            return after
-        conformal = _native.evened_tiling(made, evenness=0.0, threads=self._threads, progress=None)
-        return after.evened_from(Quality.of(made.surface(), conformal.uv(), self._threads), evenness)
 
     def _of_surface(self, vertices):
         same = self._component is self._surface

@@ -50,29 +50,11 @@ std::pair<py::array, py::array> parted_vertices(const Surface& surface, const Fl
   return {give(std::move(made.vertices)), copy_rows(made.of_triangles)};
 }
 
-// (surface, (#C,) the corner as given that each is, or None where that is its own)
-std::pair<std::shared_ptr<Surface>, py::object> in_one_orientation(const Surface& surface) {
-  mesh::OrientedSurface made = unlocked([&](Execution& e) { return mesh::in_one_orientation(surface, e); });
-  py::object index = py::none();
-  if (!made.corner_index.empty()) index = give(std::move(made.corner_index));
-  return {std::make_shared<Surface>(std::move(made.surface)), index};
-}
-
 }  // namespace
 
 void bind_cuts(py::module_& m) {
-  m.def(
-      "edges_between",
-      [](const Surface& surface, const Contiguous<int>& names) {
-        return as_flags(mesh::edges_between(surface, values(names)));
-      },
-      "surface"_a, "names"_a);
-  m.def("in_one_orientation", &in_one_orientation, "surface"_a);
   m.def("cut_open", &cut_open, "surface"_a, "is_cut"_a);
   m.def("parted_vertices", &parted_vertices, "surface"_a, "is_cut"_a);
-  m.def(
-      "parts", [](const Surface& surface, const Flags& is_cut) { return give(mesh::parts(surface, flags(is_cut))); },
-      "surface"_a, "is_cut"_a);
   m.def(
       "bends", [](const Surface& surface) { return give(mesh::bends(surface)); }, "surface"_a);
   m.def(

@@ -9,6 +9,7 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "islands/island_search.h"
+#include "islands/pieces.h"
 #include "islands/shelves.h"
 #include "islands/split_overlaps.h"
 
@@ -81,6 +82,39 @@ std::pair<py::array, double> pack(const Contiguous<double>& sizes, double margin
   return {as_array(made.corners), made.side};
 }
 
+using SurfacePointer = std::shared_ptr<mesh::Surface>;
+
+// [(surface, indices of its vertices, polygons and corners)]
+std::vector<std::tuple<SurfacePointer, py::array, py::array, py::array>> cut_apart(const mesh::Surface& surface,
+                                                                                   const Contiguous<int>& names) {
+  std::vector<mesh::Component> parts;
+  {
+    const std::vector<int> given = values(names);
+    const py::gil_scoped_release unlocked;
+    Execution execution;
+    parts = islands::cut_apart(surface, given, execution);
+  }
+  std::vector<std::tuple<SurfacePointer, py::array, py::array, py::array>> result;
+  for (mesh::Component& part : parts) {
+    result.emplace_back(std::make_shared<mesh::Surface>(std::move(part.surface)), give(std::move(part.vertex_index)),
+                        give(std::move(part.face_index)), give(std::move(part.corner_index)));
+  }
+  return result;
+}
+
+SurfacePointer without_windows(const mesh::Surface& surface) {
+  const py::gil_scoped_release unlocked;
+  Execution execution;
+  return std::make_shared<mesh::Surface>(islands::without_windows(surface, execution));
+}
+
+double turn_between(const mesh::Surface& surface, const Contiguous<double>& one, const Contiguous<double>& other) {
+  const auto rows = [](const Contiguous<double>& uv) {
+    return Eigen::Map<const uv::UvArray>(uv.data(), uv.shape(0), 2);
+  };
+  return islands::turn_between(surface, rows(one), rows(other));
+}
+
 }  // namespace
 
 void bind_islands(py::module_& m) {
@@ -114,6 +148,16 @@ void bind_islands(py::module_& m) {
   m.attr("smooth_angle") = islands::kSmoothAngle;
   m.attr("evened_cost") = islands::kEvenedCost;
   m.def("parted", &parted, "surface"_a, "uv"_a, "progress"_a);
+  m.attr("rest") = islands::kRest;
+  m.def(
+      "names_of_pieces",
+      [](const mesh::Surface& surface, const Contiguous<bool>& is_hard) {
+        return give(islands::names_of_pieces(surface, {is_hard.data(), is_hard.data() + is_hard.size()}));
+      },
+      "surface"_a, "is_hard"_a);
+  m.def("cut_apart", &cut_apart, "surface"_a, "names"_a);
+  m.def("without_windows", &without_windows, "surface"_a);
+  m.def("turn_between", &turn_between, "surface"_a, "one"_a, "other"_a);
   m.def("on_shelves", &on_shelves, "sizes"_a, "width"_a, "gap"_a);
   m.def("pack", &pack, "sizes"_a, "margin"_a);
   m.def("fitting_margin", &islands::fitting_margin, "margin"_a, "count"_a);

@@ -95,6 +95,11 @@ py::array jumps(const turns::TurnedTiling& made) {
   return give_matrix(std::move(result));
 }
 
+uv::Quality quality_of_tiling(const Tiling& made, const std::optional<std::string>& up, int threads) {
+  const std::optional<uv::Up> axis = up ? std::optional(up_axis(*up)) : std::nullopt;
+  return unlocked(threads, py::none(), [&](Execution& execution) { return tiling::quality(made, axis, execution); });
+}
+
 void bind_turned_tiling(py::module_& m) {
   using turns::TurnedTiling;
   py::class_<TurnedTiling>(m, "TurnedTiling")
@@ -154,6 +159,7 @@ void bind_tiling(py::module_& m) {
         "evenness"_a, "size_counts"_a, "threads"_a, "progress"_a);
   m.def("move_poles", &move_poles, "placement"_a, "tiling"_a, "moves"_a, py::kw_only(), "evenness"_a, "threads"_a,
         "progress"_a);
+  m.def("quality_of_tiling", &quality_of_tiling, "tiling"_a, py::kw_only(), "up"_a, "threads"_a);
   m.def("evened_tiling", &evened, "tiling"_a, py::kw_only(), "evenness"_a, "threads"_a, "progress"_a);
 }
 

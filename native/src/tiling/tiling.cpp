@@ -175,4 +175,15 @@ Tiling evened(const Tiling& tiling, double evenness, Execution& execution) {
   return with_evenness(tiling.conformal, evenness, 0.0, execution);
 }
 
+uv::Quality quality(const Tiling& tiling, std::optional<uv::Up> up, Execution& execution) {
+  const mesh::Surface& surface = *tiling.conformal->structure->surface;
+  uv::Quality result = uv::quality(surface, tiling.uv, execution.workers());
+  if (up) result.direction = uv::direction(surface, tiling.uv, *up, 1, execution.workers());
+  if (tiling.evenness > 0) {
+    const uv::UvArray conformal = evened(tiling, 0, execution).uv;
+    uv::set_evened_from(result, uv::quality(surface, conformal, execution.workers()), tiling.evenness);
+  }
+  return result;
+}
+
 }  // namespace holomorph::tiling

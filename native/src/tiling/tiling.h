@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tiling/rounding_candidate.h"
+#include "uv/quality.h"
 
 namespace holomorph::tiling {
 
@@ -61,5 +62,10 @@ Tiling move_poles(const Placement& placement, const Tiling& tiling, const std::v
 /// Gives the tiling another evenness. Nothing is placed or rounded again; jumps and straight boundaries stay.
 /// @throws SolverError, Cancelled
 Tiling evened(const Tiling& tiling, double evenness, Execution& execution);
+
+/// Measures a tiling, and what its evening added unseen.
+/// @param up the axis that points up, for a texture that is to stand upright; none: the direction does not count
+/// @throws SolverError, Cancelled
+uv::Quality quality(const Tiling& tiling, std::optional<uv::Up> up, Execution& execution);
 
 }  // namespace holomorph::tiling

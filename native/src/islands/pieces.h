@@ -1,0 +1,33 @@
+// The pieces of a surface between its hard edges. Windows in tubes, such as where a handle is fixed, are closed.
+#pragma once
+
+#include <vector>
+
+#include "base/execution.h"
+#include "mesh/components.h"
+#include "mesh/surface.h"
+#include "uv/uv_map.h"
+
+namespace holomorph::islands {
+
+inline constexpr int kRest = -1;  ///< the name of polygons that are looked at with others
+
+/// Names the piece of each polygon, #F, from 0 on: hard edges that end within one do not divide it. Those of little
+/// area are `kRest`. All are 0 where but for a speck there is one. @param is_hard #E
+std::vector<int> names_of_pieces(const mesh::Surface& surface, const std::vector<char>& is_hard);
+
+/// The components of a surface that is cut between polygons of different names, with indices of its own vertices,
+/// polygons and corners. @param names #F
+std::vector<mesh::Component> cut_apart(const mesh::Surface& surface, const std::vector<int>& names,
+                                       Execution& execution);
+
+/// Fills all boundary loops but the two longest with a polygon each, appended at the end, longer ones first. Vertices,
+/// polygons and corners keep their numbers.
+/// @throws InvalidMesh where a window is not a polygon
+mesh::Surface without_windows(const mesh::Surface& surface, Execution& execution);
+
+/// Radians by which rows of squares of one map turn against those of another, in the mean over its area.
+/// @param one, other #C x 2
+double turn_between(const mesh::Surface& surface, const uv::UvArray& one, const uv::UvArray& other);
+
+}  // namespace holomorph::islands
