@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from .. import _native
+from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import Progress
 from ..core.progress import scaled
@@ -41,7 +42,7 @@ def island_map(
     evenness : as in `Structure.tile`
     threads, progress : as in `conformal_structure`
 
-    Raises Cancelled.
+    Raises TopologyError for several components, and for a surface without positions; Cancelled.
     Source: Sawhney & Crane (2017), section 4, for each piece; cuts and joints are ours, docs/choice.md.
 
     Examples
@@ -54,6 +55,9 @@ def island_map(
     1 7
     """
     check_type(surface, Surface)
+    surface.require_connected()
+    if surface.vertices is None:
+        raise TopologyError("islands need a surface with positions; this one has edge lengths only")
     evenness, threads = checked_evenness(evenness), check_threads(threads or None)
     return IslandSearch(surface, evenness, threads, True).best(progress=progress)
 

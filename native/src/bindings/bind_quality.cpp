@@ -3,6 +3,8 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "uv/appearance.h"
@@ -37,28 +39,40 @@ uv::Direction direction(const mesh::Surface& surface, const Contiguous<double>& 
                   [&](Workers& workers) { return uv::direction(surface, corners(uv), up_axis(up), turns, workers); });
 }
 
-// Any polygons; the facade has checked nothing but that they are arrays.
+// Any polygons, which no surface has checked.
 mesh::Polygons polygons(const Contiguous<double>& vertices, const Contiguous<int>& corner_vertices,
-                        const Contiguous<int>& face_offsets) {
-  return {rows<double, 3>(vertices), values(corner_vertices), values(face_offsets)};
+                        const Contiguous<int>& face_offsets, const Contiguous<double>& uv) {
+  const auto has_columns = [](const Contiguous<double>& array, py::ssize_t count) {
+    return array.ndim() == 2 && array.shape(1) == count;
+  };
+  if (!has_columns(vertices, 3) || !has_columns(uv, 2) || uv.shape(0) != corner_vertices.size())
+    throw py::value_error("(#V, 3) positions and (#C, 2) UVs are needed");
+  mesh::Polygons result{rows<double, 3>(vertices), values(corner_vertices), values(face_offsets)};
+  const auto is_vertex = [&](int v) { return v >= 0 && v < std::ssize(result.vertices); };
+  const auto& offsets = result.face_offsets;
+  if (!std::ranges::all_of(result.corner_vertices, is_vertex) || offsets.empty() || offsets.front() != 0 ||
+      offsets.back() != corner_vertices.size() || !std::ranges::is_sorted(offsets))
+    throw py::index_error("corners name vertices that are not there, or offsets are not those of their polygons");
+  return result;
 }
 
 Distortion distortion(const Contiguous<double>& vertices, const Contiguous<int>& corner_vertices,
                       const Contiguous<int>& face_offsets, const Contiguous<double>& uv, const std::string& up) {
-  const mesh::Polygons drawn = polygons(vertices, corner_vertices, face_offsets);
+  const mesh::Polygons drawn = polygons(vertices, corner_vertices, face_offsets, uv);
   return unlocked(1, [&](Workers& workers) { return uv::distortion(drawn, corners(uv), up_axis(up), workers); });
 }
 
 std::tuple<double, double, double> drawn_densities(const Contiguous<double>& vertices,
                                                    const Contiguous<int>& corner_vertices,
                                                    const Contiguous<int>& face_offsets, const Contiguous<double>& uv) {
-  const mesh::Polygons drawn = polygons(vertices, corner_vertices, face_offsets);
+  const mesh::Polygons drawn = polygons(vertices, corner_vertices, face_offsets, uv);
   const auto [low, median, high] =
       unlocked(1, [&](Workers& workers) { return uv::drawn_densities(drawn, corners(uv), workers); });
   return {low, median, high};
 }
 
 double overlapping_part(const Contiguous<std::complex<double>>& curve, const py::object& progress) {
+  if (curve.ndim() != 2 || curve.shape(1) != 2) throw py::value_error("a curve is an (n, 2) array of ends");
   std::vector<uv::Ends> edges(curve.shape(0));
   for (std::size_t k = 0; k < edges.size(); ++k) edges[k] = {curve.data()[2 * k], curve.data()[2 * k + 1]};
   Execution execution(1, callback(progress));

@@ -48,6 +48,7 @@ TurnedTiler::TurnedTiler(std::shared_ptr<const mesh::Surface> surface, const Til
     : surface_(std::move(surface)),
       options_(options),
       usual_tiles_(std::max(kUsualTiles, kTilesPerHandle * mesh::topological_type(*surface_).genus)) {
+  if (surface_->intrinsic()) throw TopologyError("a turned map needs positions: the surface has edge lengths alone");
   if (options_.rows == Rows::kMirror && options_.chosen.empty()) half_.emplace(*surface_, options_.up, execution);
   std::vector<int> lines;
   if (half_) {

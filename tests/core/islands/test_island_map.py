@@ -4,7 +4,7 @@ import families
 import holomorph
 import numpy as np
 import pytest
-from holomorph import Surface, _native
+from holomorph import Surface, TopologyError, _native, automatic_structure
 from holomorph.cutting.island_map import IslandSearch, island_map
 from holomorph.mesh.edges import polygon_sides
 from solids import around, bracket, can, cone
@@ -118,6 +118,17 @@ def test_a_tube_is_cut_from_loop_to_loop():
 )
 def test_a_closed_smooth_part_has_none(make):
     assert island_map(make()) is None
+
+
+def test_what_cannot_be_cut_is_refused():
+    intrinsic = Surface.from_edge_lengths([[0, 1, 2], [0, 2, 1]], [[1.0, 1.0, 1.0]] * 2)
+    two = surface_of(families.united(families.cube(), families.cube()))
+    for wrong, message in ((intrinsic, "positions"), (two, "2 connected components")):
+        with pytest.raises(TopologyError, match=message):
+            island_map(wrong)
+    torus = Surface.from_edge_lengths([[0, 0, 0], [0, 0, 0]], np.ones((2, 3)), [[0, 1, 2], [0, 1, 2]])
+    with pytest.raises(TopologyError, match="positions"):
+        automatic_structure(torus).tile(turns=4, lines="whole")
 
 
 def dome(height, n=24, m=24):

@@ -85,6 +85,26 @@ def test_degenerate_faces_and_maps_give_finite_numbers():
     assert np.isfinite(nothing.angle).all() and np.isfinite(nothing.density).all()
 
 
+@pytest.mark.parametrize(
+    ("wrong", "error"),
+    [
+        ({"vertices": np.zeros((3, 2))}, ValueError),
+        ({"corner_vertices": np.array([0, 1, 3])}, IndexError),
+        ({"corner_vertices": np.array([0, 1, -1])}, IndexError),
+        ({"corner_vertices": np.array([0, 1])}, ValueError),
+        ({"face_offsets": np.array([0, 4])}, IndexError),
+        ({"face_offsets": np.array([0, 3, 0, 3])}, IndexError),
+        ({"face_offsets": np.array([], int)}, IndexError),
+    ],
+)
+def test_arrays_that_are_no_mesh_are_refused(wrong, error):
+    mesh = {"vertices": np.eye(3), "corner_vertices": np.arange(3), "face_offsets": np.array([0, 3])}
+    for measure in (distortion.measure, distortion.drawn_densities):
+        measure(SimpleNamespace(**mesh), np.eye(3)[:, :2])
+        with pytest.raises(error):
+            measure(SimpleNamespace(**mesh | wrong), np.eye(3)[:, :2])
+
+
 def test_fans_cover_each_polygon():
     """Seven corners of a regular heptagon, a quad and a triangle: areas add up."""
     turn = 2 * np.pi * np.arange(7) / 7
