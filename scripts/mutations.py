@@ -38,6 +38,8 @@ TURNED = CORE + "turns/test_turned_tilings.py"
 LINES = CORE + "turns/test_turned_lines.py"
 MIRRORED = CORE + "turns/test_mirrored.py"
 ASKED = CORE + "turns/test_asked_turns.py"
+OVERLAP = CORE + "islands/test_overlap.py"
+MIXED = CORE + "islands/test_mixed_map.py"
 CHOSEN = CORE + "turns/test_chosen_cones.py"
 DIRECTION = CORE + "uv/test_direction.py"
 GLB = CORE + "files/test_gltf.py"
@@ -272,6 +274,8 @@ MUTATIONS = (
     | of(ROOM + "mesh/stitching.cpp", ("slivers-as-others", "? 2 : 0;  // what", "? 0 : 0;  // what", SLIVERS))
     | of(ROOM + "mesh/border_paths.cpp", ("paths-stop", "kShortest = 1e-12", "kShortest = 0", SLIVERS))
     | of(ROOM + "mesh/hard_edges.cpp", ("slivers-own-normals", "sums[owners[f]]", "sums[f]", SLIVERS))
+    | of(ROOM + "uv/overlap.cpp", ("overlap-twice", "std::abs(winding) > 1", "std::abs(winding) > 2", OVERLAP))
+    | of(ROOM + "islands/pieces.cpp", ("windows-shortest", "std::pair(-a.length", "std::pair(a.length", MIXED))
     | of(ROOM + "islands/island_layout.cpp", ("same-place", "kSame = 1e-5", "kSame = 1e-6", SLIVERS))
     | of(
         ROOM + "turns/line_values.cpp",

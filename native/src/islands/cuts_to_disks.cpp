@@ -5,21 +5,11 @@
 #include <limits>
 
 #include "mesh/border_paths.h"
+#include "mesh/edge_faces.h"
 #include "mesh/union_find.h"
 
 namespace holomorph::islands {
 namespace {
-
-// Both polygons of each polygon's edge, -1 where there is none.
-std::vector<mesh::Pair> faces_of_edges(const mesh::Surface& surface) {
-  std::vector<mesh::Pair> faces(surface.polygon_edge_count, {-1, -1});
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    for (const int e : surface.triangle_edges[t]) {
-      if (!surface.is_diagonal(e)) faces[e][faces[e][0] < 0 ? 0 : 1] = surface.triangle_faces[t];
-    }
-  }
-  return faces;
-}
 
 // Marks the edge and the paths from its ends.
 void mark(const mesh::Surface& surface, const mesh::BorderPaths& paths, int edge, std::vector<char>& is_cut) {
@@ -31,7 +21,7 @@ void mark(const mesh::Surface& surface, const mesh::BorderPaths& paths, int edge
 
 std::vector<char> cuts_to_disks(const mesh::Surface& surface, Execution& execution) {
   const mesh::BorderPaths forest = mesh::border_paths(surface, mesh::on_border(surface, {}), execution);
-  const auto faces = faces_of_edges(surface);
+  const auto faces = mesh::edge_faces(surface);
   std::vector<char> is_in_forest(surface.edges.size(), 0), result(surface.edges.size(), 0);
   for (const int e : forest.edge_to_border) {
     if (e >= 0) is_in_forest[e] = 1;

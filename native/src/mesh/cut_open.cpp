@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "mesh/edge_faces.h"
 #include "mesh/make_surface.h"
 #include "mesh/slivers.h"
 #include "mesh/union_find.h"
@@ -14,25 +15,13 @@ namespace {
 
 int next_side(int side) { return side % 3 == 2 ? side - 2 : side + 1; }
 
-// The two sides of each edge, 3 t + i, -1 where there is none.
-std::vector<Pair> sides_of_edges(const Surface& surface) {
-  std::vector<Pair> sides(surface.edges.size(), Pair{-1, -1});
-  for (int t = 0; t < std::ssize(surface.triangles); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      Pair& own = sides[surface.triangle_edges[t][i]];
-      own[own[0] < 0 ? 0 : 1] = 3 * t + i;
-    }
-  }
-  return sides;
-}
-
 // Names the fan of each triangle corner, 3 #T. The corner at the start of a side is followed by that of the triangle
 // across it: a fan is a path of corners, named by its end, or a cycle, named by its lowest.
 std::vector<int> fans(const Surface& surface, const std::vector<char>& is_cut) {
   const int count = 3 * static_cast<int>(surface.triangles.size());
   std::vector<int> following(count), before(count, -1), names(count, -1);
   std::iota(following.begin(), following.end(), 0);
-  const std::vector<Pair> sides = sides_of_edges(surface);
+  const std::vector<Pair> sides = edge_sides(surface);
   for (std::size_t e = 0; e < sides.size(); ++e) {
     const auto [one, other] = sides[e];
     if (other < 0 || is_cut[e]) continue;
@@ -88,10 +77,9 @@ std::vector<int> parts(const Surface& surface, const std::vector<char>& is_cut) 
   const std::vector<char> left = cut_without_sliver_parts(surface, is_cut);
   const int count = static_cast<int>(surface.face_component.size());
   UnionFind sets(count);
-  const std::vector<Pair> sides = sides_of_edges(surface);
-  for (std::size_t e = 0; e < sides.size(); ++e) {
-    if (sides[e][1] >= 0 && !left[e])
-      sets.join(surface.triangle_faces[sides[e][0] / 3], surface.triangle_faces[sides[e][1] / 3]);
+  const std::vector<Pair> faces = edge_faces(surface);
+  for (std::size_t e = 0; e < faces.size(); ++e) {
+    if (faces[e][1] >= 0 && !left[e]) sets.join(faces[e][0], faces[e][1]);
   }
   std::vector<int> result(count);
   int parts = 0;
@@ -101,12 +89,9 @@ std::vector<int> parts(const Surface& surface, const std::vector<char>& is_cut) 
 
 std::vector<char> edges_between(const Surface& surface, const std::vector<int>& names) {
   std::vector<char> result(surface.edges.size(), 0);
-  const std::vector<Pair> sides = sides_of_edges(surface);
-  for (std::size_t e = 0; e < sides.size(); ++e) {
-    const auto [one, other] = sides[e];
-    result[e] =
-        other >= 0 && names[surface.triangle_faces[one / 3]] != names[surface.triangle_faces[other / 3]] ? 1 : 0;
-  }
+  const std::vector<Pair> faces = edge_faces(surface);
+  for (std::size_t e = 0; e < faces.size(); ++e)
+    result[e] = faces[e][1] >= 0 && names[faces[e][0]] != names[faces[e][1]] ? 1 : 0;
   return result;
 }
 

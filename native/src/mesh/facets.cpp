@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mesh/cut_open.h"
+#include "mesh/edge_faces.h"
 #include "mesh/hard_edges.h"
 
 namespace holomorph::mesh {
@@ -92,8 +93,10 @@ std::vector<double> breaks(const Surface& surface) {
   std::ranges::transform(result, is_cut.begin(), [](double bend) { return bend > kFlat ? 1 : 0; });
   const std::vector<int> place = parts(surface, is_cut);
   std::vector<Border> borders;
-  for (const auto& [edge, one, other] : inner_edges(surface)) {
-    if (place[one] != place[other]) borders.push_back({edge, place[one], place[other]});
+  const std::vector<Pair> faces = edge_faces(surface);
+  for (int e = 0; e < std::ssize(faces); ++e) {
+    const auto [one, other] = faces[e];
+    if (other >= 0 && place[one] != place[other]) borders.push_back({e, place[one], place[other]});
   }
   if (borders.empty()) return result;
   const std::vector<Place> places = places_of(surface, place, borders);

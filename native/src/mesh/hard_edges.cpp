@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mesh/border_paths.h"
+#include "mesh/edge_faces.h"
 #include "mesh/slivers.h"
 #include "mesh/union_find.h"
 
@@ -79,18 +80,6 @@ std::vector<Point> triangle_normals(const Surface& surface) {
   return result;
 }
 
-std::vector<EdgeFaces> inner_edges(const Surface& surface) {
-  std::vector<Pair> faces(surface.edges.size(), Pair{-1, -1});
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    for (const int e : surface.triangle_edges[t]) faces[e][faces[e][0] < 0 ? 0 : 1] = surface.triangle_faces[t];
-  }
-  std::vector<EdgeFaces> result;
-  for (int e = 0; e < std::ssize(faces); ++e) {
-    if (faces[e][1] >= 0) result.push_back({e, faces[e][0], faces[e][1]});
-  }
-  return result;
-}
-
 std::vector<Point> face_normals(const Surface& surface) {
   std::vector<Point> sums(surface.face_component.size(), Point{});
   const auto normals = triangle_normals(surface);
@@ -110,8 +99,10 @@ std::vector<Point> face_normals(const Surface& surface) {
 std::vector<double> bends(const Surface& surface) {
   const std::vector<Point> normals = face_normals(surface);
   std::vector<double> result(surface.edges.size(), 0.0);
-  for (const auto& [edge, one, other] : inner_edges(surface))
-    result[edge] = angle_between(normals[one], normals[other]);
+  const std::vector<Pair> faces = edge_faces(surface);
+  for (std::size_t e = 0; e < faces.size(); ++e) {
+    if (faces[e][1] >= 0) result[e] = angle_between(normals[faces[e][0]], normals[faces[e][1]]);
+  }
   return result;
 }
 

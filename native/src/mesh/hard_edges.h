@@ -22,12 +22,6 @@ double angle_between(const std::array<double, 3>& a, const std::array<double, 3>
 /// Normals of the triangles, as long as twice their areas, #T.
 std::vector<std::array<double, 3>> triangle_normals(const Surface& surface);
 
-/// An edge off the boundary, and the polygons to both sides of it: the same one of a diagonal.
-struct EdgeFaces {
-  int edge, one, other;
-};
-std::vector<EdgeFaces> inner_edges(const Surface& surface);
-
 /// Unit normals of the polygons, by the mean of the triangles, #F. Slivers have that of the polygon to whose piece they
 /// belong. @pre the surface has positions. Cost: O(#T)
 std::vector<std::array<double, 3>> face_normals(const Surface& surface);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesh/edge_faces.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 
@@ -32,15 +33,6 @@ bool is_sliver(const Surface& surface, int triangle) {
 }
 
 bool has_any(const std::vector<char>& flags) { return std::find(flags.begin(), flags.end(), 1) != flags.end(); }
-
-// The polygons on the two sides of each edge, #E; the second is -1 on the boundary. Those of diagonals are the same.
-std::vector<Pair> faces_of_edges(const Surface& surface) {
-  std::vector<Pair> faces(surface.edges.size(), Pair{-1, -1});
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    for (const int e : surface.triangle_edges[t]) faces[e][faces[e][0] < 0 ? 0 : 1] = surface.triangle_faces[t];
-  }
-  return faces;
-}
 
 // Parts of a surface that is cut, each known by its lowest polygon, and in each a polygon that is no sliver.
 class Parts {
@@ -93,7 +85,7 @@ std::vector<char> slivers(const Surface& surface) {
 std::vector<char> cut_without_sliver_parts(const Surface& surface, std::vector<char> is_cut) {
   const std::vector<char> flat = slivers(surface);
   if (!has_any(flat)) return is_cut;
-  const std::vector<Pair> faces = faces_of_edges(surface);
+  const std::vector<Pair> faces = edge_faces(surface);
   Parts parts(flat);
   for (int e = 0; e < surface.polygon_edge_count; ++e) {
     if (!is_cut[e] && faces[e][1] >= 0) parts.join(faces[e][0], faces[e][1]);
@@ -109,7 +101,7 @@ std::vector<int> sliver_owners(const Surface& surface) {
   if (!has_any(flat)) return owners;
   Parts parts(flat);
   std::vector<char> is_cut(surface.edges.size(), 1);
-  join_slivers(surface, faces_of_edges(surface), parts, is_cut);
+  join_slivers(surface, edge_faces(surface), parts, is_cut);
   for (int f = 0; f < static_cast<int>(owners.size()); ++f) owners[f] = parts.owner(f) < 0 ? f : parts.owner(f);
   return owners;
 }
