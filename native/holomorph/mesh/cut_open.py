@@ -4,6 +4,7 @@ import numpy as np
 
 from .. import _native
 from ..core import arrays
+from ..core.array_types import Integers
 from .origin import Origin
 from .surface import Surface
 
@@ -17,6 +18,6 @@ def cut_open(surface, is_seam):
     return Surface._of(native, origin)
 
 
-def next_sides(sides):
+def next_sides(sides: Integers) -> Integers:
     """The side that follows each one in its triangle, numbered through all triangles."""
     return np.where(sides % 3 == 2, sides - 2, sides + 1)

@@ -1,10 +1,14 @@
 """Where a surface breaks off: edges between faces that meet at an angle, and tips that only a cut can flatten."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from .. import _native
+from ..core.array_types import Integers, Reals
 from .cut_open import next_sides
 from .edges import edge_keys
+from .surface import Surface
 
 TIP = np.pi / 3  # radians that are missing around a vertex, or too many
 
@@ -20,7 +24,7 @@ def breaks(surface):
     return _native.breaks(surface._native)
 
 
-def cuts(parts):
+def cuts(parts: Sequence[Surface]) -> tuple[Integers, Integers, Reals, Reals]:
     """((2, n) parts, (2, n) sides of their triangles, numbered through, (n,) their length, (n,) how far a seam is seen
     there) of the edges at which these parts of one mesh are cut open, or from each other."""
     borders = list(map(_border, parts))
