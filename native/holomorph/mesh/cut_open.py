@@ -1,5 +1,7 @@
 """Surfaces cut open along their edges."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from .. import _native

@@ -1,5 +1,7 @@
 """Where a surface breaks off: edges between faces that meet at an angle, and tips that only a cut can flatten."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np
