@@ -66,9 +66,7 @@ def program(request, tmp_path_factory):
 @pytest.mark.parametrize("name", MESHES)
 def test_each_way_gives_the_tiling_of_the_python_package(program, name, tmp_path):
     mesh = MESHES[name]
-    surface = holomorph.Surface(mesh.vertices, [np.asarray(face) for face in mesh.faces])
-    surface.write(tmp_path / "mesh.obj")
-    surface = holomorph.Surface.read(tmp_path / "mesh.obj")
+    surface = read_again(mesh, tmp_path / "mesh.obj")
     tiler = holomorph.automatic_structure(surface).tiler(evened=True)
     made = tiler.tile(64, evenness=0.5, direction=None)
     quality = made.quality
@@ -80,14 +78,31 @@ def test_each_way_gives_the_tiling_of_the_python_package(program, name, tmp_path
 
 
 ISLANDS = {"cube": families.cube(), "tube": families.cylinder(13, 8), "bracket": families.voxel_surface(BRACKET)}
+TURNED = MESHES | {"bracket": families.voxel_surface(np.kron(BRACKET, np.ones((3, 3, 3))))}
+
+
+def read_again(mesh, path):
+    holomorph.Surface(mesh.vertices, [np.asarray(face) for face in mesh.faces]).write(path)
+    return holomorph.Surface.read(path)
+
+
+def assert_same(program, path, figures, uv):
+    """A program prints these figures, and the UVs bit for bit."""
+    found, *rows = output(program, path).strip().splitlines()
+    assert found == figures
+    assert np.array_equal([[float(value) for value in row.split()] for row in rows], uv)
 
 
 @pytest.mark.parametrize("name", ISLANDS)
 def test_islands_are_those_of_the_python_package(examples, name, tmp_path):
-    """Bit for bit."""
-    mesh = ISLANDS[name]
-    holomorph.Surface(mesh.vertices, [np.asarray(face) for face in mesh.faces]).write(tmp_path / "mesh.obj")
-    made = holomorph.island_map(holomorph.Surface.read(tmp_path / "mesh.obj"), evenness=0.5)
-    figures, *rows = output(examples / "island_uv", tmp_path / "mesh.obj").strip().splitlines()
-    assert figures == f"{made.count} {made.cost:.17g}"
-    assert np.array_equal([[float(value) for value in row.split()] for row in rows], made.uv)
+    made = holomorph.island_map(read_again(ISLANDS[name], tmp_path / "mesh.obj"), evenness=0.5)
+    assert_same(examples / "island_uv", tmp_path / "mesh.obj", f"{made.count} {made.cost:.17g}", made.uv)
+
+
+@pytest.mark.parametrize("name", TURNED)
+def test_tilings_that_turn_are_those_of_the_python_package(examples, name, tmp_path):
+    surface = read_again(TURNED[name], tmp_path / "mesh.obj")
+    made = holomorph.automatic_structure(surface).tile(turns=4, lines="whole", evenness=0.5)
+    cones = len(made.cones)
+    figures = f"{cones} {made.quality.mean_angle:.17g} {cost(made.quality, cones=cones):.17g}"
+    assert_same(examples / "turned_uv", tmp_path / "mesh.obj", figures, made.uv)
