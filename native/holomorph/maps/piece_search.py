@@ -1,4 +1,4 @@
-"""The map of a part in pieces between its hard edges, some of them with whole tiles."""
+"""The map of a part in pieces between its hard edges, some of them with whole tiles; or cut open where few see it."""
 
 from __future__ import annotations
 
@@ -27,21 +27,24 @@ from .automatic_structure import AnyStructure, automatic_structure
 from .budget import Budget
 from .map import Map
 from .mixed import Mixed
-from .pieces import REST, Piece, closed, cut_apart, is_tube, names_of_pieces, opened, smooth_pieces
+from .pieces import REST, Piece, closed, cut_apart, cut_in_hiding, is_tube, names_of_pieces, opened, smooth_pieces
 from .request import Request
 from .size import TRIES, Window, is_in, nearest, relative_size, window_around
 from .tiling_search import REFUSALS, TilingSearch
 from .untiled import FLAT, Untiled
 
 EXACT = (1.0, 1.0)  # the window of the wanted density alone
+UNEVEN = 2.2  # density ratio of a tiling, from which on it may be better to cut the part open
 
 
 @dataclass(frozen=True)
 class _Division:
-    """names : (#F,) the piece of each polygon; pieces : those that may get a tiling, the largest first"""
+    """names : (#F,) the piece of each polygon; pieces : those that may get a tiling, the largest first; cut : how far a
+    cut is seen that divides nothing, None along hard edges"""
 
     names: Integers
     pieces: tuple[tuple[Piece, TilingSearch], ...]
+    cut: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +79,7 @@ class PieceSearch:
         self._request, self._surface, self._structure = request, request.surface, structure
         self._flat, self._budget, self._threads = flat, budget, threads
         self._found: list[_Division] | None = None
+        self._cut: list[_Division] | None = None
         self._rest: dict[bytes, Map] = {}
 
     def best(
@@ -88,8 +92,11 @@ class PieceSearch:
         """
         if self._found is None:
             self._found = list(self._divisions(scaled(progress, 0.0, 0.0)))
-        best, least, count = None, math.inf, len(self._found)
-        for n, division in enumerate(self._found):
+        if self._cut is None and self._may_be_cut(rival):
+            self._cut = list(self._in_hiding(scaled(progress, 0.0, 0.0)))
+        divisions = self._found + (self._cut or [])
+        best, least, count = None, math.inf, len(divisions)
+        for n, division in enumerate(divisions):
             worth = [pair for pair in division.pieces if self._is_worth(*pair, rival)]
             tiled = self._tiled(worth, density, tries, window, scaled(progress, n / count, (n + 1) / count))
             most = math.inf if rival is None else rival.cost + (self._turns(tiled) if rival.islands else 0.0)
@@ -116,15 +123,29 @@ class PieceSearch:
             if solved:
                 yield _Division(names, solved)
 
-    def _search(self, piece, progress):
-        """None for a piece on which nothing can be solved: it becomes an island."""
+    def _may_be_cut(self, rival):
+        """Whether squares differ so much that another tiling is made of the part cut open. Only those that turn gain by
+        that: others had more poles on it."""
+        is_uneven = rival is not None and bool(rival.tiling) and rival.quality.density_ratio > UNEVEN
+        return is_uneven and self._request.main == "automatic" and self._request.options.get("turns", 1) != 1
+
+    def _in_hiding(self, progress) -> Iterator[_Division]:
+        """The part cut open, if it does not fall apart and can be solved."""
+        found = cut_in_hiding(self._surface, self._request.is_upright, self._threads or 0, progress)
+        search = found and self._search(found[0], progress, lines="none")
+        if search:
+            names = np.zeros(len(self._surface.face_offsets) - 1, np.int64)
+            yield _Division(names, ((found[0], search),), found[1])
+
+    def _search(self, piece, progress, **own):
+        """None for a piece on which nothing can be solved: it becomes an island. own : options for it"""
         try:
-            surface = closed(piece.surface)
+            surface = closed(piece.surface) if not own else piece.surface
             structure = automatic_structure(surface, threads=self._threads, progress=progress)
         except REFUSALS:
             return None
         marked = self._request.options.get("marked")
-        own = {} if marked is None else {"marked": edges_on_part(surface, marked)}
+        own = own if marked is None else own | {"marked": edges_on_part(surface, marked)}
         return TilingSearch(
             surface, structure, replace(self._request, options={**self._request.options, **own}), self._budget
         )
@@ -182,7 +203,7 @@ class PieceSearch:
         except REFUSALS:
             return None
         maps = [one.map for one in tiled] + rest
-        return mixed_map(self._surface, self._structure, maps, self._request.evenness)
+        return mixed_map(self._surface, self._structure, maps, self._request.evenness, division.cut)
 
     def _untiled(self, piece, progress):
         """The map of a piece without tiling. Several divisions have the same pieces."""
@@ -198,17 +219,23 @@ class PieceSearch:
         return sum(one.turn * one.piece.surface.area for one in tiled) / self._surface.area
 
 
-def mixed_map(surface: Surface, structure: AnyStructure, pieces: Sequence[Map], evenness: float) -> Map:
+def mixed_map(
+    surface: Surface, structure: AnyStructure, pieces: Sequence[Map], evenness: float, cut: float | None = None
+) -> Map:
     """The `Map` of a connected part from those of its pieces, of which one at least is a tiling.
 
     pieces : of `cut_apart`, whose surfaces count vertices and corners as the part does
+    cut : how far the seams are seen, over the square root of the area; None along hard edges
     """
     tiled, unit = [made for made in pieces if made.tiling], unit_length(pieces)
     quality = Quality.joined([m.quality for m in pieces], [m.density if m.tiling else unit**-2 for m in pieces])
     uv = arrays.frozen(arranged(pieces, len(surface.corner_vertices)))
     tilings = tuple(_of_part(made.tiling, made.surface.vertex_index) for made in tiled)
     is_border, seams = _seams(surface, pieces)
-    mixed = Mixed(uv, tilings, seams, quality, evenness, *_seen_lengths(surface, is_border))
+    mixed = Mixed(uv, tilings, seams, quality, evenness, *_seen_lengths(surface, is_border, cut))
+    if cut is not None:
+        why = f"cut open where it is hardly seen it has whole tiles: size range {quality.size_range:.3g}"
+        return Map(surface, structure, uv, quality, np.empty(0), why, mixed=mixed)
     has = f"{counted(len(tiled), 'piece')} between hard edges {'has' if len(tiled) == 1 else 'have'} whole tiles"
     rest = ", the rest flattens" if len(tiled) < len(pieces) else ""
     why = f"{has}{rest}: size range {quality.size_range:.3g}"
@@ -237,8 +264,9 @@ def _seams(surface, pieces):
     return is_border, arrays.frozen(edges[is_border | are([ends for ends, _ in own])])
 
 
-def _seen_lengths(surface, is_border):
-    """(length of seams across the smooth, and of hidden ones) over the square root of the area."""
+def _seen_lengths(surface, is_border, cut):
+    """(length of seams across the smooth, or what is seen of a `cut`, and of hidden ones) over the root of the area."""
     lengths, part = surface._native.edge_lengths[is_border], _native.seen(breaks(surface)[is_border])
     size = math.sqrt(surface.area)
-    return float((lengths * part).sum()) / size, float((lengths * (1 - part)).sum()) / size
+    soft = float((lengths * part).sum()) / size if cut is None else cut
+    return soft, float(lengths.sum()) / size - soft

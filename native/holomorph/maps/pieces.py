@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _native
 from ..core import arrays
-from ..core.array_types import Flags, Integers, Reals
+from ..core.array_types import Flags, Integers, Progress, Reals
 from ..cutting.island_layout import Islands
 from ..mesh.edges import boundary_edges, edge_keys
 from ..mesh.hard_edges import TIP, breaks, curvature
@@ -17,6 +17,7 @@ from ..mesh.origin import Origin
 from ..mesh.surface import Surface
 from ..quality.appearance import cost, of_squares
 from ..quality.quality import Quality
+from ..tiling.tilings import UP
 from .map import Map
 from .untiled import FLAT, MOST_CURVED, MOST_SOFT
 
@@ -53,7 +54,21 @@ def names_of_pieces(surface: Surface, is_hard_edge: Flags) -> Integers:
 
 def cut_apart(surface: Surface, names: Integers) -> tuple[Surface, ...]:
     """The components of a surface that is cut between polygons of different names, (#F,). They count as it does."""
-    count, parts = len(surface.vertices), _native.cut_apart(surface._native, names)
+    return _parts_of(surface, _native.cut_apart(surface._native, names))
+
+
+def cut_in_hiding(
+    surface: Surface, is_upright: bool, threads: int, progress: Progress | None
+) -> tuple[Piece, float] | None:
+    """(The surface cut open between its tips where few see it, as one `Piece` with the name 0; how far the cut is seen).
+    None where it would fall apart. See native/src/mesh/hidden_cut.h."""
+    up = UP[surface.up] if is_upright else None
+    parts, seen = _native.cut_in_hiding(surface._native, up, threads=threads, progress=progress)
+    return (Piece(_parts_of(surface, parts)[0], 0, None, math.inf), seen) if len(parts) == 1 else None
+
+
+def _parts_of(surface, parts):
+    count = len(surface.vertices)
     return tuple(Surface._of(native, Origin(*own, vertex_count=count, up=surface.up)) for native, *own in parts)
 
 

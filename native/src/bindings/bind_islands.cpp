@@ -85,21 +85,38 @@ std::pair<py::array, double> pack(const Contiguous<double>& sizes, double margin
 using SurfacePointer = std::shared_ptr<mesh::Surface>;
 
 // [(surface, indices of its vertices, polygons and corners)]
-std::vector<std::tuple<SurfacePointer, py::array, py::array, py::array>> cut_apart(const mesh::Surface& surface,
-                                                                                   const Contiguous<int>& names) {
-  std::vector<mesh::Component> parts;
-  {
-    const std::vector<int> given = values(names);
-    const py::gil_scoped_release unlocked;
-    Execution execution;
-    parts = islands::cut_apart(surface, given, execution);
-  }
-  std::vector<std::tuple<SurfacePointer, py::array, py::array, py::array>> result;
+using Parts = std::vector<std::tuple<SurfacePointer, py::array, py::array, py::array>>;
+
+Parts given(std::vector<mesh::Component> parts) {
+  Parts result;
   for (mesh::Component& part : parts) {
     result.emplace_back(std::make_shared<mesh::Surface>(std::move(part.surface)), give(std::move(part.vertex_index)),
                         give(std::move(part.face_index)), give(std::move(part.corner_index)));
   }
   return result;
+}
+
+Parts cut_apart(const mesh::Surface& surface, const Contiguous<int>& names) {
+  std::vector<mesh::Component> parts;
+  {
+    const std::vector<int> own = values(names);
+    const py::gil_scoped_release unlocked;
+    Execution execution;
+    parts = islands::cut_apart(surface, own, execution);
+  }
+  return given(std::move(parts));
+}
+
+// (the parts, how far the cut is seen)
+std::pair<Parts, double> cut_in_hiding(const mesh::Surface& surface, const std::optional<std::array<double, 3>>& up,
+                                       int threads, const py::object& progress) {
+  islands::CutInHiding cut;
+  {
+    Execution execution(threads, callback(progress));
+    const py::gil_scoped_release unlocked;
+    cut = islands::cut_in_hiding(surface, up, execution);
+  }
+  return {given(std::move(cut.parts)), cut.seen};
 }
 
 SurfacePointer without_windows(const mesh::Surface& surface) {
@@ -156,6 +173,7 @@ void bind_islands(py::module_& m) {
       },
       "surface"_a, "is_hard"_a);
   m.def("cut_apart", &cut_apart, "surface"_a, "names"_a);
+  m.def("cut_in_hiding", &cut_in_hiding, "surface"_a, "up"_a, py::kw_only(), "threads"_a, "progress"_a);
   m.def("without_windows", &without_windows, "surface"_a);
   m.def("turn_between", &turn_between, "surface"_a, "one"_a, "other"_a);
   m.def("on_shelves", &on_shelves, "sizes"_a, "width"_a, "gap"_a);

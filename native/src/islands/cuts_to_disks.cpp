@@ -20,7 +20,7 @@ void mark(const mesh::Surface& surface, const mesh::BorderPaths& paths, int edge
 }  // namespace
 
 std::vector<char> cuts_to_disks(const mesh::Surface& surface, Execution& execution) {
-  const mesh::BorderPaths forest = mesh::border_paths(surface, mesh::on_border(surface, {}), execution);
+  const mesh::BorderPaths forest = mesh::border_paths(surface, mesh::on_border(surface, {}), {}, execution);
   const auto faces = mesh::edge_faces(surface);
   std::vector<char> is_in_forest(surface.edges.size(), 0), result(surface.edges.size(), 0);
   for (const int e : forest.edge_to_border) {

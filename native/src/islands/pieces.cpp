@@ -9,6 +9,7 @@
 #include "mesh/cut_open.h"
 #include "mesh/half_edges.h"
 #include "mesh/hard_edges.h"
+#include "mesh/hidden_cut.h"
 #include "mesh/make_surface.h"
 
 namespace holomorph::islands {
@@ -25,6 +26,18 @@ struct Window {
   std::vector<int> vertices;  // around the hole, which lies on the left
   double length = 0;
 };
+
+// The components that cuts leave, with indices of the surface as it was given.
+std::vector<mesh::Component> parts(const mesh::OrientedSurface& oriented, const std::vector<char>& is_cut,
+                                   Execution& execution) {
+  const auto open = mesh::cut_open(oriented.surface, is_cut, execution);
+  std::vector<mesh::Component> result = mesh::components(open.surface, execution);
+  for (mesh::Component& part : result) {
+    for (int& v : part.vertex_index) v = open.vertex_index[v];
+    for (int& c : part.corner_index) c = oriented.corner_index.empty() ? c : oriented.corner_index[c];
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -45,14 +58,15 @@ std::vector<int> names_of_pieces(const mesh::Surface& surface, const std::vector
 
 std::vector<mesh::Component> cut_apart(const mesh::Surface& surface, const std::vector<int>& names,
                                        Execution& execution) {
-  const auto [oriented, order] = mesh::in_one_orientation(surface, execution);
-  const auto open = mesh::cut_open(oriented, mesh::edges_between(oriented, names), execution);
-  std::vector<mesh::Component> result = mesh::components(open.surface, execution);
-  for (mesh::Component& part : result) {
-    for (int& v : part.vertex_index) v = open.vertex_index[v];
-    for (int& c : part.corner_index) c = order.empty() ? c : order[c];
-  }
-  return result;
+  const mesh::OrientedSurface oriented = mesh::in_one_orientation(surface, execution);
+  return parts(oriented, mesh::edges_between(oriented.surface, names), execution);
+}
+
+CutInHiding cut_in_hiding(const mesh::Surface& surface, const std::optional<std::array<double, 3>>& up,
+                          Execution& execution) {
+  const mesh::OrientedSurface oriented = mesh::in_one_orientation(surface, execution);
+  const mesh::HiddenCut cut = mesh::hidden_cut(oriented.surface, up, execution);
+  return {parts(oriented, cut.is_cut, execution), cut.seen};
 }
 
 mesh::Surface without_windows(const mesh::Surface& surface, Execution& execution) {

@@ -1,6 +1,8 @@
 // The pieces of a surface between its hard edges. Windows in tubes, such as where a handle is fixed, are closed.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "base/execution.h"
@@ -20,6 +22,15 @@ std::vector<int> names_of_pieces(const mesh::Surface& surface, const std::vector
 /// polygons and corners. @param names #F
 std::vector<mesh::Component> cut_apart(const mesh::Surface& surface, const std::vector<int>& names,
                                        Execution& execution);
+
+/// The same of a surface that is cut open between its tips where few see it: one component, unless the cut joins places
+/// of its boundary. @param up see mesh/hidden_cut.h
+struct CutInHiding {
+  std::vector<mesh::Component> parts;
+  double seen = 0;  ///< how far the cut is
+};
+CutInHiding cut_in_hiding(const mesh::Surface& surface, const std::optional<std::array<double, 3>>& up,
+                          Execution& execution);
 
 /// Fills all boundary loops but the two longest with a polygon each, appended at the end, longer ones first. Vertices,
 /// polygons and corners keep their numbers.

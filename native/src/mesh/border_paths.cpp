@@ -31,8 +31,10 @@ void BorderPaths::mark(const Surface& surface, int vertex, std::vector<char>& is
   }
 }
 
-BorderPaths border_paths(const Surface& surface, const std::vector<char>& is_border, Execution& execution) {
+BorderPaths border_paths(const Surface& surface, const std::vector<char>& is_border, const std::vector<double>& times,
+                         Execution& execution) {
   std::vector<double> lengths(surface.edge_lengths.begin(), surface.edge_lengths.end());
+  for (std::size_t e = 0; e < times.size(); ++e) lengths[e] *= times[e];
   const double shortest = kShortest * *std::max_element(lengths.begin(), lengths.end());
   for (double& length : lengths) length = std::max(length, shortest);
   // Infinite lengths keep paths off the diagonals.
@@ -60,7 +62,7 @@ std::vector<char> paths_to_border(const Surface& surface, const std::vector<char
   std::vector<char> result(surface.edges.size(), 0);
   const auto any = [](const std::vector<char>& flags) { return std::ranges::find(flags, 1) != flags.end(); };
   if (!any(is_border) || !any(starts)) return result;
-  const BorderPaths paths = border_paths(surface, is_border, execution);
+  const BorderPaths paths = border_paths(surface, is_border, {}, execution);
   for (int v = 0; v < surface.vertex_count; ++v) {
     if (starts[v]) paths.mark(surface, v, result);
   }

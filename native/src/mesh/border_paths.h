@@ -20,8 +20,9 @@ struct BorderPaths {
   void mark(const Surface& surface, int vertex, std::vector<char>& is_marked) const;
 };
 
-/// @param is_border #V. Cost: O(n log n)
-BorderPaths border_paths(const Surface& surface, const std::vector<char>& is_border, Execution& execution);
+/// @param is_border #V. @param times #E, by which lengths are multiplied; empty: 1. Cost: O(n log n)
+BorderPaths border_paths(const Surface& surface, const std::vector<char>& is_border, const std::vector<double>& times,
+                         Execution& execution);
 
 /// Returns the paths from these vertices to the border, #E. @param starts #V
 std::vector<char> paths_to_border(const Surface& surface, const std::vector<char>& is_border,

@@ -5,7 +5,6 @@ is another one. `pytest -s` prints them, and seconds of the processor.
 """
 
 import time
-from dataclasses import replace
 from typing import NamedTuple
 
 import families
@@ -13,6 +12,7 @@ import numpy as np
 import pytest
 from holomorph import Surface, automatic_map
 from holomorph.quality.distortion import quantiles
+from limbed import limbs, spikes
 from repository import ROOT
 from shared_data import shared_folder
 from solved import surface_of
@@ -30,23 +30,6 @@ class Looks(NamedTuple):
     sheared: float
     seams: tuple[float, float]
     words: str
-
-
-def limbs():
-    """A ball with four long limbs, which begin abruptly."""
-    ball = families.geodesic_sphere(10)
-    points = ball.vertices.copy()
-    for axis in np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) / 3**0.5:
-        height = ball.vertices @ axis
-        points += 16 * np.outer(np.maximum(height - 0.75, 0), axis)
-    return replace(ball, vertices=points)
-
-
-def spikes():
-    """A ball with three spikes."""
-    ball = families.geodesic_sphere(12)
-    factor = 1 + 6 * np.exp(-12 * (1 - ball.vertices.max(axis=1)))
-    return replace(ball, vertices=ball.vertices * factor[:, None])
 
 
 def of_shared(name):

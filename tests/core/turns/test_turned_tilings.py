@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from holomorph import Cancelled, Surface, TopologyError, _native, automatic_map, automatic_structure
 from holomorph.quality.quality import Quality
+from limbed import bumps
 from solved import surface_of
 from turned_jumps import jump_errors
 
@@ -29,17 +30,6 @@ def surface(request):
 def tiling(surface, turns, tiles=300.0, **options):
     options = {"evenness": 0.5} | options
     return automatic_structure(surface).tile(tiles, turns=turns, **options)
-
-
-def bumps():
-    """A ball with seven thick thorns."""
-    ball = families.geodesic_sphere(20)
-    points = ball.vertices / np.linalg.norm(ball.vertices, axis=1, keepdims=True)
-    turn = 2.4 * np.arange(7)
-    height = np.linspace(-0.9, 0.9, 7)
-    around = np.sqrt(1 - height**2)
-    tips = np.column_stack([around * np.cos(turn), around * np.sin(turn), height])
-    return replace(ball, vertices=points * (1 + 0.8 * (np.maximum(points @ tips.T, 0) ** 12).sum(axis=1))[:, None])
 
 
 def block_of_three_holes():
