@@ -36,7 +36,7 @@ NO_ROWS = dict.fromkeys(
 ) | {"mirror": "left and right differ: none of its edges divide it into mirrored halves in X or Y"}
 LINED = (2, 4)  # turns of maps whose rows may do so
 TURNED = {2: ("square", "half"), 4: ("square", "quarter"), 6: ("hex", "sixth")}  # lattice that they leave, their name
-QUICK_TURNED = 100_000  # triangles of an object: some 12 seconds, which grow as their square
+QUICK_TURNED = 300_000  # triangles of an object: some 25 seconds
 # Lattices that quarter turns of a map that is made leave as they are, and so the texture whole. On others it is turned
 # before its jumps are rounded.
 QUARTERED = ("square", ((1.0, 0.0), (0.0, 1.0)))

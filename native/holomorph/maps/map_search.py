@@ -26,7 +26,7 @@ TILING = 0.8  # part of the work, where pieces follow
 TOO_FEW = "too few whole tiles fit on it for squares of the wanted size"
 SHORT = "not all was tried, as it would take long"
 PIECES = 2.0  # times the budget, within which pieces follow a tiling: where there are hard edges they are often better
-MILLIONTHS = 1e-3  # of a second that an operation takes, about
+ISLANDS = 1e-4  # millionths of a second for each operation of a tiling that takes long: about a tenth of its time
 FAR = 10.0  # times the budget: what takes longer is not tried where there is another map, however poor
 
 
@@ -129,7 +129,7 @@ class MapSearch:
 
     def _quick(self, density, tries, progress):
         """The best of the maps that take less than a tiling of the whole part."""
-        work = self._tilings.expected_work * MILLIONTHS
+        work = self._tilings.expected_work * ISLANDS
         islands = self._untiled.islands(math.inf, scaled(progress, 0.0, 0.0), work)
         best = min((made for made in (self._flat, islands) if made), key=lambda made: made.cost, default=None)
         return self._in_pieces(best, density, tries, window_around(), progress) or best

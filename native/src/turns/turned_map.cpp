@@ -25,9 +25,9 @@ constexpr double kPull = 3;                                   // with which fram
 constexpr int kTries = 4;                                     // of the nearest whole numbers
 // Parts of the area that are wrong: then other whole numbers do not help, or cones are not worth being evened.
 constexpr double kHopeless = 2e-3, kHopelessCones = 0.1;
-// From so many triangles on the first map is taken that flips none, or no more of the area than anyone sees.
+// From so many triangles on the first map is taken of which no more than this part of a tile is wrong: nobody sees it.
 constexpr int kManyTriangles = 100'000;
-constexpr double kUnseen = 3e-5;
+constexpr double kUnseen = 0.08;
 constexpr int kMostLevels = 4;    // of half the tiles each, for which cones are searched
 constexpr int kFurtherApart = 2;  // levels, where triangles are flipped
 constexpr double kHelps = 0.5;    // of the wrong area: else no more is tried
@@ -156,6 +156,7 @@ class PlacedCones {
   // What cones are compared by, of the map by their nearest whole numbers: the wrong area, if that is hopeless, and the
   // energy as in evening/evening.h, with that of rows that are not level.
   std::pair<double, double> badness(double tiles, double evenness, Execution& execution) const;
+  const std::vector<int>& missing() const { return missing_; }  // #V, of the cones
   // Turns the UVs of polygons until v runs up on most.
   void turn_upright(TurnedMap& map, const Along& along) const;
 
@@ -263,7 +264,7 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, const E
   Judged best;
   const int tries = std::min<int>(kTries, static_cast<int>(nearest.size()));
   const bool compares = net_.triangle_count() < kManyTriangles;
-  const double unseen = compares ? 0 : kUnseen * net_.whole_area;
+  const double unseen = compares ? 0 : kUnseen * net_.whole_area / tiles;
   const double hopeless = kHopeless * net_.whole_area;
   for (int i = 0; i < tries && (compares || best.bad.first > unseen); ++i) {
     if (i > 0 && best.bad.first > hopeless) break;
@@ -379,6 +380,7 @@ TurnedMap TurnedMaps::turned_map(double tiles, double evenness, Execution& execu
   const Effort effort(*surface_);
   for (int level = first; level <= last; ++level) {
     const PlacedCones& tried = placed(level, execution);
+    if (winner && tried.missing() == winner->missing()) continue;
     PlacedCones::Judged other = tried.best_map(tiles, evenness, effort, execution);
     const bool helps = other.bad.first < kHelps * best.bad.first, is_last = other.is_last;
     if (other.bad < best.bad) best = std::move(other), winner = &tried;
