@@ -60,7 +60,7 @@ def cut_apart(surface: Surface, names: Integers) -> tuple[Surface, ...]:
 def cut_in_hiding(
     surface: Surface, is_upright: bool, threads: int, progress: Progress | None
 ) -> tuple[Piece, float] | None:
-    """(The surface cut open between its tips where few see it, as one `Piece` with the name 0; how far the cut is seen).
+    """(The surface cut open between its tips where few see it, as a `Piece` with the name 0; how far the cut is seen).
     None where it would fall apart. See native/src/mesh/hidden_cut.h."""
     up = UP[surface.up] if is_upright else None
     parts, seen = _native.cut_in_hiding(surface._native, up, threads=threads, progress=progress)
