@@ -306,7 +306,7 @@ def test_meshes_that_are_hard_to_turn(kind, turns):
 
 
 def test_several_objects_have_one_size():
-    """All but a tenth of lengths: exactly it has only a map with poles on one of them, which costs an eye more."""
+    """But for a tenth of lengths; where whole tiles that turn miss it by more, a map with poles has it."""
     one, other = ball(), torus()
     select(one, other)
     assert tile(turns="QUARTER") == {"FINISHED"}
@@ -315,7 +315,7 @@ def test_several_objects_have_one_size():
         assert off.max() == 0 and np.array_equal(shift, np.round(shift))
     made = [tiling for obj in (one, other) for tiling in tilings(obj)]
     sizes = [tiling["tiles"] / sum(f.area for f in obj.data.polygons) for tiling, obj in zip(made, (one, other))]
-    assert [tiling["turns"] for tiling in made] == [4, 4] and max(sizes) <= 1.2 * min(sizes)
+    assert 4 in {tiling["turns"] for tiling in made} <= {1, 4} and max(sizes) <= 1.2 * min(sizes)
     assert shown_scale(one) == shown_scale(other)
 
 
