@@ -174,8 +174,8 @@ def test_it_tells_of_crossings_and_of_plain_parts():
 
     assert relief.sentence(Found, 1000.0, Work) == (
         "9 triangles, 200 mm deep; 2 parts without a tiling stay flat; inside out: 1 closed parts; recalculate their "
-        "normals; the picture has 8 x 4 pixels: each tile shows it stretched to a square, by 2; up to 1e+02 mm off: "
-        "allow more triangles to follow the picture; it crosses itself in 3 triangles: up to 1e+02 mm deep it does not"
+        "normals; the picture has 8 x 4 pixels: each tile shows it stretched to a square, by 2; up to 100 mm off: "
+        "allow more triangles to follow the picture; it crosses itself in 3 triangles: up to 100 mm deep it does not"
     )
 
 
