@@ -23,7 +23,7 @@ from ..mesh.checks import real_number, whole_number
 from ..mesh.surface import Surface
 from ..packing.layout import Frame, frame, pack, place, rows
 from .automatic_structure import AnyStructure
-from .map import Map
+from .map import SCATTERED, Map
 
 CENTRE = 0.5 + 0.5j  # the middle of the UV square
 SINGLE_BITS = 24  # bits of the mantissa of single precision, which applications store
@@ -198,8 +198,10 @@ def on_grid(uv: ArrayLike) -> Reals:
 
 
 def _scale(surface, found, density):
+    """Less where a map is `SCATTERED`, as by triangles without area between its others."""
     if density > 0:
-        return density**-0.5
+        size = max((found.high - found.low).real, (found.high - found.low).imag)
+        return min(density**-0.5, SCATTERED * math.sqrt(surface.area) / size if size > 0 else math.inf)
     return math.sqrt(surface.area / found.area) if found.area > 0 else 0.0
 
 

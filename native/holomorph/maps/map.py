@@ -31,6 +31,9 @@ from .automatic_structure import AnyStructure
 from .evened_forms import evened_uv
 from .mixed import Mixed
 
+SCATTERED = (
+    300.0  # times the root of its own area that a map is wide: single precision has no room for others beside it
+)
 SLIGHT = 1e-6  # part of all slopes that may be rounding
 
 
@@ -97,7 +100,10 @@ class Map(Value):
 
     @property
     def cost(self) -> float:
-        """The cost to the eye, see `appearance.cost`."""
+        """The cost to the eye, see `appearance.cost`; infinite for a map that is `SCATTERED`."""
+        size = np.ptp(self.uv, axis=0).max() if len(self.uv) else 0.0
+        if size > SCATTERED * math.sqrt(self.density * self.surface.area):
+            return math.inf
         return cost(self.quality, len(self.poles), *self._seam_lengths, len(self.cones))
 
     @cached_property

@@ -1,10 +1,13 @@
 """Where the maps of parts lie in the UV plane: apart, at one density, tilings by whole units."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from families import cylinder, geodesic_sphere, torus, united
-from holomorph import arrangement, automatic_maps, form_map
+from holomorph import arrangement, automatic_maps, automatic_structure, form_map
 from holomorph.maps.arrangement import Arrangement, arranged, arranged_form, on_grid, square, unit_length
+from holomorph.maps.map import SCATTERED
 from holomorph.quality.distortion import drawn_densities
 from solved import surface_of
 
@@ -107,6 +110,19 @@ def test_a_map_without_area_is_a_point():
     made = form_map(surface, automatic_maps(surface, main="balanced")[0].structure, [0j])
     assert np.array_equal(arranged([made], len(surface.corner_vertices)), np.full_like(made.uv, 0.5))
     assert unit_length([made]) == 0 and square([made], Arrangement()).filling == np.inf
+
+
+def test_a_scattered_map_leaves_others_their_precision():
+    """As where a triangle without area reaches far between others: nobody would see that it does."""
+    surface = surface_of(united(geodesic_sphere(4), cylinder(12, 6)))
+    whole, other = (form_map(part, automatic_structure(part)) for part in surface.components)
+    uv = other.uv.copy()
+    uv[0] += 1e9
+    scattered = replace(other, uv=uv)
+    assert scattered.cost == np.inf > other.cost
+    both = square([whole, scattered])
+    assert max(both._sizes[1]) <= SCATTERED * np.sqrt(other.surface.area) * (1 + SINGLE)
+    assert both._sizes[0] == square([whole])._sizes[0]
 
 
 def test_no_maps_give_zeros():
