@@ -164,13 +164,19 @@ std::vector<char> Flattened::turn_upright(uv::UvArray& uv) const {
   std::vector<char> is_open(areas.size(), 1), is_held(areas.size(), 0);
   const std::array<Axis, 3> tried = axes(sheet_->up);
   for (const Axis& axis : tried) {
-    std::vector<Complex> slopes(areas.size(), 0.0);
-    for (std::size_t t = 0; t < normals.size(); ++t)
-      slopes[piece_of(t)] += uv::uphill(pieces_, uv, static_cast<int>(t), axis);
+    std::vector<Complex> slopes(areas.size(), 0.0), squares(areas.size(), 0.0);
+    for (std::size_t t = 0; t < normals.size(); ++t) {
+      const Complex slope = uv::uphill(pieces_, uv, static_cast<int>(t), axis);
+      slopes[piece_of(t)] += slope;
+      if (slope != 0.0) squares[piece_of(t)] += slope * slope / std::abs(slope);
+    }
     for (std::size_t k = 0; k < areas.size(); ++k) {
-      const double length = std::abs(slopes[k]);
-      if (!is_open[k] || !(length > kShown * areas[k])) continue;
-      turn[k] = Complex(slopes[k].imag() / length, slopes[k].real() / length);  // i |s| / s
+      const Complex i(0, 1), mean = slopes[k], level = std::sqrt(squares[k]);
+      // Around a lying tube slopes cancel: it goes up on one side, and down on the other. Their squares do not.
+      const Complex more = (mean * std::conj(level)).real() < 0 ? -level : level;
+      const Complex along = std::abs(mean) > kShown * areas[k] ? mean : more;
+      if (!is_open[k] || !(std::max(std::abs(mean), std::norm(level)) > kShown * areas[k])) continue;
+      turn[k] = i * std::abs(along) / along;
       is_open[k] = 0;
       is_held[k] = &axis == &tried.front() ? 1 : 0;
     }

@@ -95,6 +95,18 @@ def test_uvs_are_the_same_on_both_sides_of_every_edge_that_is_no_seam(unfolded):
             assert (gap > 1e-6) == (edge in seams)
 
 
+@pytest.mark.parametrize("turn", [0.0, 0.7])
+def test_rows_run_along_a_lying_tube(turn):
+    """Around it up and down cancel: across, a texture would lie on its side everywhere."""
+    around, along = (each.ravel() for each in np.meshgrid(np.arange(24), np.arange(7), indexing="ij"))
+    angle = 2 * np.pi * around / 24 + turn
+    points = np.stack([along, np.cos(angle), np.sin(angle)], axis=1)
+    first = np.flatnonzero(along < 6)
+    quads = np.stack([first, first + 7, first + 8, first + 1], axis=1) % len(points)
+    made = island_map(Surface(points, quads))
+    assert made.quality.direction.sideways_part < 0.1
+
+
 def test_islands_stand_upright_and_apart():
     """The four sides of a box stand in one row: v runs up on them, as z does."""
     surface = box()
