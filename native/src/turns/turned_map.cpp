@@ -25,9 +25,10 @@ constexpr double kPull = 3;                                   // with which fram
 constexpr int kTries = 4;                                     // of the nearest whole numbers
 // Parts of the area that are wrong: then other whole numbers do not help, or cones are not worth being evened.
 constexpr double kHopeless = 2e-3, kHopelessCones = 0.1;
-// From so many triangles on the first map is taken of which no more than this part of a tile is wrong: nobody sees it.
-constexpr int kManyTriangles = 100'000;
-constexpr double kUnseen = 0.08;
+// From so many triangles on the first map is taken of which no more than this part of a tile is wrong, or flipped:
+// nobody sees it.
+constexpr int kManyTriangles = 15'000;
+constexpr double kUnseen = 0.08, kUnseenFlipped = 1e-3;
 constexpr int kMostLevels = 4;    // of half the tiles each, for which cones are searched
 constexpr int kFurtherApart = 2;  // levels, where triangles are flipped
 constexpr double kHelps = 0.5;    // of the wrong area: else no more is tried
@@ -91,10 +92,14 @@ uv::UvArray in_plane(const TurnLattice& lattice, const uv::UvArray& coordinates)
   return result;
 }
 
-// The area of triangles that are flipped, or around vertices at which the map has not the angle that it is to have:
-// evening may turn triangles back at a cone by turning a neighbour of it into a branch point.
-double wrong_area(const mesh::Surface& surface, const Net& net, const uv::UvArray& in_plane, int k,
-                  const std::vector<int>& missing) {
+struct WrongArea {
+  double whole = 0;    // of triangles that are flipped, or around vertices at which the map has not the wanted angle:
+                       // evening may turn triangles back at a cone by turning a neighbour of it into a branch point
+  double flipped = 0;  // of the former
+};
+
+WrongArea wrong_area(const mesh::Surface& surface, const Net& net, const uv::UvArray& in_plane, int k,
+                     const std::vector<int>& missing) {
   std::vector<double> turned(net.vertex_count(), 0.0);  // full turns
   std::vector<char> is_flipped(net.triangle_count(), 0);
   for (int side = 0; side < net.side_count(); ++side) {
@@ -109,15 +114,16 @@ double wrong_area(const mesh::Surface& surface, const Net& net, const uv::UvArra
     if (!(ratio.imag() > 0)) is_flipped[side / 3] = 1;
     turned[net.tail[side]] += std::arg(ratio) / (2 * std::numbers::pi);
   }
-  double sum = 0;
+  WrongArea result;
   for (int t = 0; t < net.triangle_count(); ++t) {
     const bool is_wrong = std::ranges::any_of(surface.triangles[t], [&](int v) {
       return !net.on_boundary[v] &&
              std::abs(turned[v] - (1 - static_cast<double>(missing[v]) / k)) > 0.75;  // it is off by whole turns
     });
-    if (is_wrong || is_flipped[t]) sum += net.area[t];
+    if (is_wrong || is_flipped[t]) result.whole += net.area[t];
+    if (is_flipped[t]) result.flipped += net.area[t];
   }
-  return sum;
+  return result;
 }
 
 std::vector<Jump> jumps_of(const mesh::Surface& surface, const Net& net, const Frames& frames, const TurnedSpace& space,
@@ -247,7 +253,7 @@ std::pair<double, double> PlacedCones::badness(double tiles, double evenness, Ex
   const NearestMap::Rounded rounded = nearest(tiles)[0];
   VectorXcd y = nearest_.functions(rounded, false);
   const auto laid = [&] { return in_plane(space_.lattice, coordinates(y, rounded)); };
-  double wrong = wrong_area(*surface_, net_, laid(), space_.lattice.k, missing_);
+  double wrong = wrong_area(*surface_, net_, laid(), space_.lattice.k, missing_).whole;
   if (wrong <= kHopelessCones * net_.whole_area) {
     wrong = 0;
     y = evened(y, rounded, evenness, execution);
@@ -264,20 +270,21 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, const E
   Judged best;
   const int tries = std::min<int>(kTries, static_cast<int>(nearest.size()));
   const bool compares = net_.triangle_count() < kManyTriangles;
-  const double unseen = compares ? 0 : kUnseen * net_.whole_area / tiles;
+  const double tile = compares ? 0 : net_.whole_area / tiles;
   const double hopeless = kHopeless * net_.whole_area;
-  for (int i = 0; i < tries && (compares || best.bad.first > unseen); ++i) {
+  for (int i = 0; i < tries && (compares || !best.is_last); ++i) {
     if (i > 0 && best.bad.first > hopeless) break;
     execution.stage("evening", 0.2 + 0.8 * i / tries, 0.2 + 0.8 * (i + 1) / tries);
     const VectorXcd y = nearest_.functions(nearest[i], false);  // conformal; evening may begin from a map more level
     const VectorXcd begin = nearest[i].is_level && evenness > 0 ? nearest_.functions(nearest[i], true) : y;
     uv::UvArray uv = coordinates(evened(begin, nearest[i], evenness, execution), nearest[i]);
     const uv::UvArray laid = in_plane(space_.lattice, uv);
-    const std::pair<double, double> bad{wrong_area(*surface_, net_, laid, space_.lattice.k, missing_),
-                                        strain(laid, evenness, execution)};
+    const WrongArea wrong = wrong_area(*surface_, net_, laid, space_.lattice.k, missing_);
+    const std::pair<double, double> bad{wrong.whole, strain(laid, evenness, execution)};
     if (bad < best.bad) {
       const std::vector<Jump> jumps = jumps_of(*surface_, net_, frames_, space_, nearest[i].z);
-      best = {{std::move(uv), coordinates(y, nearest[i]), jumps, {}, {}}, bad, bad.first <= unseen};
+      best = {{std::move(uv), coordinates(y, nearest[i]), jumps, {}, {}}, bad};
+      best.is_last = wrong.whole <= kUnseen * tile && wrong.flipped <= kUnseenFlipped * tile;
     }
     if (!effort.goes_on()) {
       best.is_last = true;
