@@ -32,7 +32,7 @@ constexpr int kMostAround = 480;           // around all
 constexpr int kMovesAtOnce = 16;           // between two looks at whether the search is cancelled
 // Operations for two candidates: in each move, and for each loop.
 constexpr double kPair = 2, kProduct = 0.25;
-constexpr double kSeen = 3;     // price of a cone that is seen from everywhere, beside that of one that is hidden
+constexpr double kSeen = 5;     // price of a cone that is seen from everywhere, beside that of one that is hidden
 constexpr double kGain = 1e-9;  // a move lowers the cost by more
 // Rounds: the distance of candidates from their cone, in spacings of the first ones; part of kHandles.
 struct Round {

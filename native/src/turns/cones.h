@@ -18,7 +18,7 @@ struct Cones {
 
 struct ConeOptions {
   int k = 4;                   ///< the map may turn by k-th parts of a full turn
-  double price = 0.0002;       ///< of a cone of one k-th turn that is hidden; up to four times as much where it is seen
+  double price = 0.0001;       ///< of a cone of one k-th turn that is hidden; up to six times as much where it is seen
   std::optional<Along> along;  ///< none: any direction
   /// Cones are about as far apart as centres of turns are where there are so many tiles.
   double tiles = 400;

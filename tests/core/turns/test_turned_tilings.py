@@ -252,6 +252,6 @@ def test_cones_that_cost_much_lie_where_they_are_seen_least():
     surface = surface_of(bumps())
     for up in (1, -1):
         options = {"direction": [0, 0, up], "is_of_u": False, "up": "Z", "lines": "none", "marked": np.empty((0, 2))}
-        tiler = _native.TurnedTiler(surface._native, turns=4, price=2e-3, chosen=[], **options)
+        tiler = _native.TurnedTiler(surface._native, turns=4, price=1e-3, chosen=[], **options)
         cones = tiler.tile(300, evenness=0.0, threads=1, progress=None).cones()
         assert up * surface.vertices[cones, 2].mean() < -0.3
