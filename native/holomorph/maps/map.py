@@ -31,9 +31,7 @@ from .automatic_structure import AnyStructure
 from .evened_forms import evened_uv
 from .mixed import Mixed
 
-SCATTERED = (
-    300.0  # times the root of its own area that a map is wide: single precision has no room for others beside it
-)
+SCATTERED = 300.0  # times the root of its own area that a map is wide: single precision has no room for others then
 SLIGHT = 1e-6  # part of all slopes that may be rounding
 
 

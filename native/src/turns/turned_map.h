@@ -2,35 +2,14 @@
 // others 2013, doi:10.1145/2461912.2462014), whose cones and whole numbers are found as in docs/method/turns.md.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <vector>
 
-#include "turns/cones.h"
-#include "turns/lines.h"
-#include "uv/uv_map.h"
+#include "turns/placed_cones.h"
 
 namespace holomorph::turns {
-
-/// Across an edge from the triangle on its left, seen from the lower vertex, to that on its right:
-/// x' = R^turn x + translation, in coordinates of the lattice.
-struct Jump {
-  int edge = 0, turn = 0;
-  std::array<std::int64_t, 2> translation{};
-};
-
-struct TurnedMap {
-  uv::UvArray uv;            ///< #C x 2, in coordinates of the lattice
-  uv::UvArray before;        ///< the same before it was evened
-  std::vector<Jump> jumps;   ///< of the edges across which the UVs jump
-  std::vector<int> cones;    ///< vertices
-  std::vector<int> missing;  ///< of each cone: k-th turns that are missing around it
-};
-
-class PlacedCones;
 
 /// The turned maps of a surface. Cones are searched for when a map is made, and kept for others with about as many
 /// tiles.
