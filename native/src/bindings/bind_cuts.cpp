@@ -12,7 +12,6 @@
 #include "mesh/cut_open.h"
 #include "mesh/facets.h"
 #include "mesh/hard_edges.h"
-#include "mesh/hidden_cut.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -51,12 +50,6 @@ py::array copy_rows(const std::vector<std::array<T, N>, Allocator>& rows) {
 std::pair<py::array, py::array> parted_vertices(const Surface& surface, const Flags& is_cut) {
   auto made = mesh::parted_vertices(surface, flags(is_cut));
   return {give(std::move(made.vertices)), copy_rows(made.of_triangles)};
-}
-
-// ((#E,) the cut, how far it is seen)
-std::pair<py::array, double> hidden_cut(const Surface& surface, const std::optional<std::array<double, 3>>& up) {
-  mesh::HiddenCut found = unlocked([&](Execution& e) { return mesh::hidden_cut(surface, up, e); });
-  return {as_flags(std::move(found.is_cut)), found.seen};
 }
 
 }  // namespace
@@ -98,7 +91,6 @@ void bind_cuts(py::module_& m) {
         }));
       },
       "surface"_a, "is_border"_a, "starts"_a);
-  m.def("hidden_cut", &hidden_cut, "surface"_a, "up"_a);
 }
 
 }  // namespace holomorph::bindings

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from holomorph import _native, automatic_map
 from holomorph.mesh.cut_open import cut_open
+from holomorph.mesh.edges import edge_keys
 from limbed import limbs, spikes
 from solved import surface_of
 
@@ -24,8 +25,11 @@ def surface(request):
 
 
 def hidden(surface, up=None):
-    """((#E,) the cut, how far it is seen)."""
-    return _native.hidden_cut(surface._native, up)
+    """((#E,) the cut of a closed surface, how far it is seen)."""
+    ((native, index, *_),), seen = _native.cut_in_hiding(surface._native, up, threads=1, progress=None)
+    edges, count = native.edges, len(surface.vertices)
+    border = edges[np.bincount(native.triangle_edges.ravel(), minlength=len(edges)) == 1]
+    return np.isin(edge_keys(surface._native.edges, count), edge_keys(index[border], count)), seen
 
 
 def test_the_cut_is_one_tree(surface):
