@@ -16,7 +16,7 @@ from ..scene import stored_dials
 from . import lines
 
 UNTILED = {"BALANCED", "ISLANDS"}  # values of the dial of seams without tiles that fit together
-SECONDS_EACH = 1.2e-4  # for each triangle: some 12 s at 100,000, by `scripts/benchmark click`
+SECONDS_EACH = 7e-5  # for each triangle: some 6 s at 100,000, by `scripts/benchmark click`
 LONG = 5  # seconds from which on they are told before
 NARROW = 240  # pixels of a sidebar in which other words need the room of a fraction
 TURNED = {2: "½", 4: "¼", 6: "⅙"}
