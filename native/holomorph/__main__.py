@@ -2,6 +2,7 @@
 ... relief MESHFILE IMAGE --depth 1mm --output out.3mf"""
 
 import argparse
+import contextlib
 import json
 import os
 import sys
@@ -11,16 +12,17 @@ from . import Error, Surface, Verdict, __version__
 from .batch import mapping, textured
 from .batch.recipe import Maps, Output, Recipe, Tiles
 from .commands.compare_command import compare
-from .commands.console import Parser, ended, failed, tell, warn
+from .commands.console import Parser, ended, failed, shown, tell, warn
 from .commands.relief_command import relief
 from .core.value import plain, quoted
 from .files import formats, whole_file
 from .maps.report import repairs_report, whole_report
-from .maps.request import MAIN_MAPS
+from .maps.request import EVENNESS, MAIN_MAPS
 from .mesh.checks import SOLVERS, check_options, check_thresholds
 from .tiling.turned import AUTO, AUTOMATIC, LINES, TURNS, checked_lines
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3
+STANDARD_OUTPUT = "-"
 
 
 def command():
@@ -42,17 +44,15 @@ def main(arguments=None):
         return relief(arguments[1:])
     options = _parser().parse_args(arguments)
     try:
-        whole_file.check_places(options.mesh, options.output, [options.report], options.overwrite)
+        report = None if options.report == STANDARD_OUTPUT else options.report
+        whole_file.check_places(options.mesh, options.output, [report], options.overwrite)
         _check_output(options.output, options.texture)
         recipe = _recipe(options)
         found = textured.symmetry(recipe)
-    except (ValueError, OSError) as error:
-        return failed(EXIT_USAGE, error)
-    try:
         check_options(options.solver, options.threads)
         check_thresholds(options.thresholds, options.solver)
-    except ValueError as error:
-        return failed(EXIT_REFUSED, error)
+    except (ValueError, OSError) as error:
+        return failed(EXIT_USAGE, error)
     try:
         report = mapped(options, textured.resolved(recipe, found), found)
     except (Error, OSError) as error:
@@ -62,19 +62,25 @@ def main(arguments=None):
 
 def _parser():
     parser = Parser(
-        prog="python -m holomorph",
         description="Compute the conformal structure of a mesh file. See also holomorph batch --help (map a library "
         "of meshes), holomorph compare --help (compare two surfaces) and holomorph relief --help (raise a picture on "
         "a mesh for printing).",
     )
-    parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
+    parser.add_argument("mesh", help=f"{formats.KINDS} file")
     parser.add_argument("--output", metavar="FILE", help="write the mesh with its main map: .obj, .ply or .glb")
     text = "with --output FILE.glb: a PNG or JPEG image on the mesh, or checker"
     parser.add_argument("--texture", metavar="IMAGE", help=text)
     parser.add_argument("--overwrite", action="store_true", help="allow --output to replace the input")
-    parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default without output: print it)")
-    text = "default with --output: automatic, a seamless tiling where it is at least as even, else balanced"
+    text = "write the report as JSON; - prints it, as without --output and --report"
+    parser.add_argument("--report", metavar="FILE", help=text)
+    parser.add_argument("--quiet", action="store_true", help="do not print the verdict, which is one line")
+    text = (
+        "automatic (default with --output, or where what follows asks for tiles): the best looking map; else balanced"
+    )
     parser.add_argument("--main", choices=MAIN_MAPS, help=text)
+    parser.add_argument("--tiles", **_of_recipe("tiles"), help="number over the whole mesh (default: 0, chosen)")
+    text = f"from 0, which keeps angles, to 1, which makes all squares of one size (default: {EVENNESS})"
+    parser.add_argument("--evenness", **_of_recipe("evenness"), help=text)
     text = (
         "2, 4 or 6: sides of a cut may turn by a half, a quarter or a sixth, where the texture looks the same; auto: "
     )
@@ -87,8 +93,20 @@ def _parser():
     parser.add_argument("--thresholds", type=_thresholds, metavar="FACES", help=text)
     parser.add_argument("--threads", type=int, help="number of threads (default: one per core)")
     parser.add_argument("--strict", action="store_true", help="exit with 3 unless every map is good or fair")
-    parser.add_argument("--version", action="version", version=__version__)
     return parser
+
+
+def _of_recipe(name):
+    """Type and default of an option that is a number of [tiling] in recipes."""
+
+    def read(text):
+        value, about = float(text), Tiles.__dataclass_fields__[name].metadata
+        if not about["is_valid"](value):
+            raise argparse.ArgumentTypeError(f"{text} is given; {about['wanted']} is needed")
+        return value
+
+    read.__name__ = "number"  # in the sentence about other words
+    return {"type": read, "default": getattr(Tiles(), name), "metavar": "NUMBER"}
 
 
 def _turns(text):
@@ -123,9 +141,10 @@ def _recipe(options):
     """Raises ValueError for lines that maps with these turns cannot have."""
     if options.turns != AUTO:
         checked_lines(options.lines, options.turns, AUTOMATIC)
-    main = options.main or ("automatic" if options.output else "balanced")
+    tiling = Tiles(**{name: getattr(options, name) for name in ("tiles", "evenness", "turns", "lines")})
+    main = options.main or ("automatic" if options.output or tiling != Tiles() else "balanced")
     maps = Maps(main=main, solver=options.solver, thresholds=options.thresholds)
-    return Recipe(maps, Tiles(turns=options.turns, lines=options.lines), output=Output(texture=options.texture))
+    return Recipe(maps, tiling, output=Output(texture=options.texture))
 
 
 def mapped(options, recipe, found):
@@ -154,11 +173,15 @@ def mapped(options, recipe, found):
 
 
 def _write(report, options):
-    text = json.dumps(report, indent=1, allow_nan=False)
+    text = json.dumps(report, indent=1, allow_nan=False) + "\n"
+    if options.report == STANDARD_OUTPUT or not (options.report or options.output):
+        tell(text)
+        return
     if options.report:
-        whole_file.write(options.report, text.encode() + b"\n")
-    elif not options.output:
-        tell(text + "\n")
+        whole_file.write(options.report, text.encode())
+    if report["verdict"] and not options.quiet:
+        with contextlib.suppress(OSError):  # the files are there, whether or not somebody hears of it
+            tell(f"{shown(str(options.mesh))}: {report['verdict']['sentence']}\n")
 
 
 def _status(report, is_strict):

@@ -33,7 +33,7 @@ def done(tmp_path_factory):
     source = torus_obj(folder / "torus.obj")
     (folder / "recipe.toml").write_text(EVERYTHING)
     result = run(source, "--out", folder / "out", "--recipe", folder / "recipe.toml")
-    assert result.returncode == 0, result.stderr
+    assert result.returncode == 0 and result.stdout.startswith("1 asset: 1 done; see "), result.stderr
     return source, folder / "out" / "assets" / "torus.obj"
 
 

@@ -4,12 +4,14 @@ import tempfile
 from pathlib import Path
 
 import byte_mutations
+import door_files
 import oracle
 from holomorph import Surface
 from mesh_files import POLYGON_FILES, TRIANGLE_FILES
 
-FILES = sorted((POLYGON_FILES | TRIANGLE_FILES).items())
-FORMATS = (".obj", ".off", ".ply", ".stl")
+SCENES = {"scene.glb": door_files.gltf([door_files.TORUS], [door_files.WALL])}
+FILES = sorted((POLYGON_FILES | TRIANGLE_FILES | SCENES).items())
+FORMATS = (".obj", ".off", ".ply", ".stl", ".glb", ".gltf", ".3mf")
 
 
 def make(random):

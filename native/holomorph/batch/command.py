@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from ..commands.console import Parser, failed, shown, tell
+from ..core.value import counted
 from ..quality.verdicts import LEVELS
 from . import blend, progress, recipe, sources, workers
 from .errors import DONE, EngineError, StorageError, UsageError
@@ -42,9 +43,7 @@ def _reason(error):
 
 
 def _options(arguments):
-    parser = Parser(
-        prog="holomorph batch", description="Map a library of meshes; a second run does only what is missing."
-    )
+    parser = Parser("batch", description="Map a library of meshes; a second run does only what is missing.")
     parser.add_argument("source", nargs="+", help=sources.KINDS)
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the results")
     parser.add_argument("--recipe", metavar="FILE", help="TOML file that chooses maps, tilings, levels and files")
@@ -92,14 +91,14 @@ def _exit_code(records, options):
     """Says how many assets there are of each status."""
     told = ", ".join(f"{count} {status}" for status, count in counts(records).items())
     with storing():
-        tell(f"{len(records)} assets: {told or 'none'}; see {shown(str(options.out / 'index.html'))}\n")
+        tell(f"{counted(len(records), 'asset')}: {told or 'none'}; see {shown(str(options.out / 'index.html'))}\n")
     if any(record["status"] != DONE for record in records) and not options.report_only:
         return SOME_FAILED
     unfit = [record["name"] for record in records if record.get("verdict") in UNFIT or record.get("skipped")]
     if not (options.strict and unfit):
         return ALL_DONE
     return failed(
-        STRICT, f"{len(unfit)} assets have a poor or unusable map, or parts without a map; the first is {unfit[0]}"
+        STRICT, f"poor or unusable map, or parts without a map: {counted(len(unfit), 'asset')}; the first is {unfit[0]}"
     )
 
 

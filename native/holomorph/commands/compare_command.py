@@ -5,6 +5,7 @@ import json
 from .. import Error, Surface
 from ..core.value import plain
 from ..files import whole_file
+from ..files.formats import KINDS
 from ..moduli.equivalence import VERDICTS, conformally_equivalent
 from .console import Parser, failed, tell, warn
 
@@ -16,11 +17,11 @@ def compare(arguments):
     """Prints one sentence about two mesh files; the exit code is that of the verdict."""
     codes = ", ".join(f"{code} {verdict}" for verdict, code in EXIT_CODES.items())
     parser = Parser(
-        prog="python -m holomorph compare",
+        "compare",
         description="Decide whether there is a conformal map between two surfaces.",
         epilog=f"Exit code: {codes}; 1 where a file cannot be compared.",
     )
-    parser.add_argument("meshes", nargs=2, metavar="mesh", help="OBJ, OFF, PLY or STL file of one connected surface")
+    parser.add_argument("meshes", nargs=2, metavar="mesh", help=f"{KINDS} file of one connected surface")
     parser.add_argument("--report", metavar="FILE", help="write verdict, integer matrix and distances as JSON")
     options = parser.parse_args(arguments)
     try:

@@ -7,7 +7,8 @@ import os
 import signal
 import sys
 
-from ..core import addresses, unexpected
+from .._native import __version__
+from ..core import addresses, starting, unexpected
 
 INTERRUPTED = 130  # exit status after Ctrl-C, or SIGTERM, as shells have it
 JOINERS = "\u200c\u200d"  # which scripts and pictures need between letters
@@ -66,8 +67,13 @@ def failed(status, problem):
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser of arguments that ends as the commands do if an output is closed or full. Its help ends with the address
-    of the documentation."""
+    """A parser of the arguments of a command, by default that of single files. It names the program as it was started,
+    and ends as the commands do if an output is closed or full. Its help ends with the address of the documentation."""
+
+    def __init__(self, command="", **about):
+        program = "python -m holomorph" if starting.is_module() else "holomorph"
+        super().__init__(prog=f"{program} {command}".strip(), **about)
+        self.add_argument("--version", action="version", version=__version__)
 
     def format_help(self):
         return super().format_help() + (f"\n{addresses.DOCUMENTATION}\n" if addresses.DOCUMENTATION else "")

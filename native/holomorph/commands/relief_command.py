@@ -7,6 +7,7 @@ import numpy as np
 from .. import Error, InvalidMesh, Map, Surface, TopologyError, automatic_maps
 from ..core.value import rounded
 from ..files import printing, whole_file
+from ..files.formats import KINDS
 from ..mesh.checks import check_options, real_number
 from ..tiles.height_image import height_image
 from ..tiles.relief import LEAST_PART, check_choices, checked_depth, checked_heights, joined, plain, stretched_sentence
@@ -44,13 +45,13 @@ def relief(arguments):
 
 def _parser():
     parser = Parser(
-        prog="python -m holomorph relief",
+        "relief",
         description="Raise a picture of heights on a mesh, once in every tile of a seamless tiling, for printing: "
         "the pattern closes up around every limb, and a closed mesh stays closed.",
         epilog="Exit status: 1 if nothing was done (a message says why), 2 for a mistake in the command, 3 with "
         "--strict.",
     )
-    parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
+    parser.add_argument("mesh", help=f"{KINDS} file")
     parser.add_argument("heights", metavar="image", help="picture whose white is raised; it repeats in every tile")
     parser.add_argument("--output", metavar="FILE", required=True, help="file to write: .3mf, .stl or .obj")
     parser.add_argument(

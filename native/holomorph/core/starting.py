@@ -13,9 +13,14 @@ ROOM = 2**32  # bytes: with less, a library's workspace for each thread would ta
 
 def is_command():
     """Whether this process is `python -m holomorph` or the script of that name."""
-    words = sys.orig_argv
     if sys.argv[:1] != ["-m"]:  # which it is while the package of a module to run is imported
         return bool(sys.argv) and os.path.basename(sys.argv[0]) in ("holomorph", "holomorph.exe")
+    return is_module()
+
+
+def is_module():
+    """Whether this process is `python -m holomorph`."""
+    words = sys.orig_argv
     return "-m" in words and words[words.index("-m") + 1 :][:1] == [__package__.rpartition(".")[0]]
 
 

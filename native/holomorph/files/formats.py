@@ -95,6 +95,7 @@ def glb(surface, uv=None, image=None):
     return gltf.encoded(points[:, :3], triangles, points[:, 3:], image)
 
 
+KINDS = "OBJ, OFF, PLY, STL, glTF or 3MF"  # of the files that `Surface.read` reads
 WRITERS = {"obj": obj, "ply": ply, "glb": glb}
 TEXTURED = ("glb",)
 

@@ -12,6 +12,7 @@ from .. import _native
 from .._native import InvalidMesh
 from ..core import arrays
 from ..core.value import quoted
+from ..files import scenes
 from .origin import AS_GIVEN, Origin
 
 POLYGONS = ("triangle", "quad", "polygon")  # of meshio, whose other cells are points, lines, solids or curved
@@ -38,6 +39,9 @@ def of_file(path, strict, weld, up):
     """Makes one of the arguments of `Surface.read`."""
     if up not in (None, "Y", "Z"):
         raise ValueError(f'up is {quoted(up)}; "Y" or "Z" is needed')
+    if scene := scenes.kind(path):
+        surface, origin = _of(*scenes.read(path, weld or strict), strict)
+        return surface, origin._replace(up=up or scene.UP)
     return of_read(_native.FileMesh.read(os.fspath(path), weld), path, strict, up)
 
 

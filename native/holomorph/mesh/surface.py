@@ -83,13 +83,15 @@ class Surface(Value):
 
     @classmethod
     def read(cls, path: FilePath, strict: bool = False, weld: bool = False, up: str | None = None) -> Surface:
-        """OBJ, OFF, PLY or STL; polygons are kept, in double precision.
+        """OBJ, OFF, PLY or STL; polygons are kept, in double precision. glTF (.glb, .gltf) or 3MF: the triangles of all
+        its meshes, each at its place; 3MF in millimetres.
 
         Parameters
         ----------
         strict : as in `Surface`, but by default a mesh is cut until it is a surface
         weld : join vertices with equal coordinates, for files in which every face has vertices of its own; what that
-            leaves of a face with fewer than three corners is left out. STL files always are welded
+            leaves of a face with fewer than three corners is left out. STL files always are welded, with `strict` glTF
+            and 3MF too
         up : "Y" or "Z", see `Surface.up`
 
         Raises
@@ -246,7 +248,7 @@ class Surface(Value):
 
     @property
     def up(self) -> str:
-        """The axis of the positions that points up, so that maps stand upright: "Y" in OBJ files, else "Z"."""
+        """The axis of the positions that points up, so that maps stand upright: "Y" in OBJ and glTF files, else "Z"."""
         return self._origin.up
 
     def _standing_as(self, other):

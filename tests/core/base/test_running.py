@@ -344,7 +344,7 @@ def test_command_fails_with_one_sentence(name, content, message, tmp_path):
 
 def test_command_names_the_solvers_that_there_are(tmp_path):
     result = run(write_obj(tmp_path / "torus.obj", families.torus(9, 6)), "--solver", "guess")
-    assert result.returncode == 1
+    assert result.returncode == 2
     assert result.stderr == "holomorph: solver is 'guess'; one of auto, direct, multigrid, paper is needed\n"
 
 

@@ -94,7 +94,7 @@ def test_command_writes_the_mesh_with_its_maps(ending, two_parts, tmp_path):
 
 
 def test_command_writes_the_balanced_maps_side_by_side(two_parts, tmp_path, capsys):
-    assert main([str(two_parts), "--output", str(tmp_path / "out.obj"), "--main", "balanced"]) == 0
+    assert main([str(two_parts), "--output", str(tmp_path / "out.obj"), "--main", "balanced", "--quiet"]) == 0
     assert capsys.readouterr() == ("", "")
     uv, surface = obj_uv(tmp_path / "out.obj"), Surface.read(two_parts)
     assert (uv >= -1e-12).all() and (uv <= 1 + 1e-12).all()

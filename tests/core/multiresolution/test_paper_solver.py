@@ -246,8 +246,8 @@ def test_thresholds_of_the_command(tmp_path, text, thresholds):
 @pytest.mark.parametrize(
     ("options", "status", "message"),
     [
-        (("--thresholds", "200"), 1, "thresholds need solver='paper', but solver is 'auto'"),
-        (("--solver", "paper", "--thresholds", "0"), 1, "a threshold is 0; a positive number is needed"),
+        (("--thresholds", "200"), 2, "thresholds need solver='paper', but solver is 'auto'"),
+        (("--solver", "paper", "--thresholds", "0"), 2, "a threshold is 0; a positive number is needed"),
         (("--solver", "paper", "--thresholds", "few"), 2, "'few' is not a list of numbers of faces such as 1000,5000"),
     ],
 )

@@ -1,0 +1,140 @@
+"""glTF 2.0, with its buffers beside or inside it, as pieces: the triangles of the scene's meshes, as they rest."""
+
+import base64
+import json
+import struct
+from pathlib import Path
+from urllib.parse import unquote
+
+import numpy as np
+
+from .._native import InvalidMesh
+from . import whole_file
+from .gltf import BINARY, JSON, MAGIC
+
+UP = "Y"
+NUMBERS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+WIDTHS = {"SCALAR": 1, "VEC3": 3}
+TRIANGLES, STRIP, FAN = 4, 5, 6  # ways to draw; others draw points and lines
+
+
+def placed(path):
+    """Yields (points, triangles, matrix). @throws InvalidMesh, OSError, and what a damaged file leads to"""
+    content = whole_file.read(path)
+    binary = b""
+    if content[:4] == struct.pack("<I", MAGIC):
+        content, binary = _chunks(content)
+    scene = _Scene(json.loads(content), binary, Path(path).parent)
+    scene.check()
+    for mesh, matrix in scene.meshes():
+        for primitive in mesh["primitives"]:
+            yield *scene.triangles(primitive), matrix
+
+
+def _chunks(content):
+    """(JSON, binary) of a GLB file."""
+    found, place = {JSON: b"", BINARY: b""}, 12
+    while place < len(content):
+        size, kind = struct.unpack_from("<II", content, place)
+        found.setdefault(kind, content[place + 8 : place + 8 + size])
+        found[kind] = found[kind] or content[place + 8 : place + 8 + size]
+        place += 8 + size
+    return found[JSON], found[BINARY]
+
+
+class _Scene:
+    def __init__(self, content, binary, folder):
+        self._content, self._binary, self._folder, self._buffers = content, binary, folder, {}
+
+    def check(self):
+        version = str(self._content["asset"]["version"])
+        if not version.startswith("2."):
+            raise InvalidMesh(f"this is glTF {version}; 2.0 is needed")
+        for name in self._content.get("extensionsRequired", []):
+            if "compression" in name:
+                raise InvalidMesh(f"it is compressed ({name}); save it without")
+
+    def meshes(self):
+        """(mesh, matrix) of each node of the scene, from its roots down."""
+        nodes = self._content.get("nodes", [])
+        waiting = [(root, np.eye(4)) for root in self._roots(nodes)]
+        for _ in nodes:
+            if not waiting:
+                return
+            index, above = waiting.pop()
+            node = nodes[index]
+            matrix = _matrix(node) @ above
+            if "mesh" in node:  # a skin puts its mesh where its bones are, wherever the node is
+                yield self._content["meshes"][node["mesh"]], np.eye(4) if "skin" in node else matrix
+            waiting += [(child, matrix) for child in reversed(node.get("children", []))]
+        if waiting:
+            raise InvalidMesh("its nodes are no tree")
+
+    def _roots(self, nodes):
+        if "scenes" in self._content:
+            return self._content["scenes"][self._content.get("scene", 0)].get("nodes", [])[::-1]
+        return sorted({*range(len(nodes))} - {child for node in nodes for child in node.get("children", [])})[::-1]
+
+    def triangles(self, primitive):
+        """(points, (#T, 3)), in which no triangle is there for points and lines."""
+        points = self._rows(primitive["attributes"]["POSITION"]).astype(float)
+        indices = np.arange(len(points))
+        if "indices" in primitive:
+            indices = self._rows(primitive["indices"])[:, 0].astype(np.int64)
+        mode = primitive.get("mode", TRIANGLES)
+        if mode == TRIANGLES:
+            return points, indices[: len(indices) // 3 * 3].reshape(-1, 3)
+        if mode not in (STRIP, FAN) or len(indices) < 3:
+            return points, np.empty((0, 3), np.int64)
+        first = indices[:-2] if mode == STRIP else np.full(len(indices) - 2, indices[0])
+        rows = np.column_stack([first, indices[1:-1], indices[2:]])
+        if mode == STRIP:  # whose every other triangle runs the other way; those of two corners lead to the next band
+            rows[1::2] = rows[1::2, [1, 0, 2]]
+            rows = rows[(rows != np.roll(rows, 1, axis=1)).all(axis=1)]
+        return points, rows
+
+    def _rows(self, index):
+        """(n, 1 or 3) of an accessor."""
+        about = self._content["accessors"][index]
+        if "sparse" in about or "bufferView" not in about:
+            raise InvalidMesh("it has sparse accessors, which are not read; save it without")
+        view, kind = self._content["bufferViews"][about["bufferView"]], np.dtype(NUMBERS[about["componentType"]])
+        width, start = WIDTHS[about["type"]], view.get("byteOffset", 0)
+        content = self._buffer(view["buffer"])[start : start + view["byteLength"]]
+        stride, count = view.get("byteStride", kind.itemsize * width), about["count"]
+        if stride < kind.itemsize * width:
+            raise InvalidMesh(f"rows of accessor {index} overlap")
+        rows = np.ndarray((count, width), kind, content, about.get("byteOffset", 0), (stride, kind.itemsize))
+        if about.get("normalized"):
+            return np.maximum(rows / np.iinfo(kind).max, -1)
+        return rows
+
+    def _buffer(self, index):
+        if index not in self._buffers:
+            address = self._content["buffers"][index].get("uri")
+            if address is None:
+                found = self._binary
+            elif address.startswith("data:"):
+                found = base64.b64decode(address.partition(",")[2], validate=True)
+            else:
+                found = whole_file.read(self._folder / unquote(address))
+            self._buffers[index] = found
+        return self._buffers[index]
+
+
+def _matrix(node):
+    """(4, 4), which multiplies rows from the right, as files list it."""
+    if "matrix" in node:
+        return np.array(node["matrix"], float).reshape(4, 4)
+    x, y, z, w = np.array(node.get("rotation", [0, 0, 0, 1]), float)
+    turn = np.array(
+        [
+            [w * w + x * x - y * y - z * z, 2 * (x * y + z * w), 2 * (x * z - y * w)],
+            [2 * (x * y - z * w), w * w - x * x + y * y - z * z, 2 * (y * z + x * w)],
+            [2 * (x * z + y * w), 2 * (y * z - x * w), w * w - x * x - y * y + z * z],
+        ]
+    )
+    result = np.eye(4)
+    result[:3, :3] = np.reshape(node.get("scale", [1, 1, 1]), (3, 1)) * turn
+    result[3, :3] = node.get("translation", [0, 0, 0])
+    return result
