@@ -9,13 +9,30 @@ import typing
 __version__: str
 direct_solver: str
 
-class Error(RuntimeError): ...
-class InvalidMesh(Error): ...
-class TopologyError(Error): ...
-class SolverError(Error): ...
-class Cancelled(Error): ...
-class OutOfMemory(Error, MemoryError): ...
-
+class Error(RuntimeError):
+    """
+    Base of all errors of this library.
+    """
+class InvalidMesh(Error):
+    """
+    The input is not a valid polygon mesh, or a file is malformed.
+    """
+class TopologyError(Error):
+    """
+    The topology of the mesh does not fit what was asked for.
+    """
+class SolverError(Error):
+    """
+    A linear system was not solved to the accuracy asked for, or does not fit into memory.
+    """
+class Cancelled(Error):
+    """
+    The progress function returned False.
+    """
+class OutOfMemory(Error, MemoryError):
+    """
+    There is not enough memory.
+    """
 class Surface:
     @staticmethod
     @typing.overload

@@ -2,6 +2,7 @@
 
 import doctest
 import inspect
+import pydoc
 import re
 
 import holomorph
@@ -9,8 +10,9 @@ import numpy as np
 import pytest
 from repository import ROOT
 
-FUNCTIONS = [name for name in holomorph.__all__ if inspect.isfunction(getattr(holomorph, name))]
+FUNCTIONS = [name for name in dir(holomorph) if inspect.isfunction(getattr(holomorph, name))]
 PARSER = doctest.DocTestParser()
+MOST_LINES = 400
 
 
 def run(name, text):
@@ -37,6 +39,12 @@ def test_what_is_raised_and_the_source_are_told(name):
     assert re.search(r"\bRaises\b", text)
     source = re.search(r"^Source: (.*)$", text, re.MULTILINE)
     assert source and all((ROOT / page).exists() for page in re.findall(r"docs/[\w/-]+\.md", source[1]))
+
+
+def test_help_fits_on_some_screens_and_names_all_that_is_public():
+    assert len(pydoc.render_doc(holomorph, renderer=pydoc.plaintext).splitlines()) < MOST_LINES
+    contents = holomorph.__doc__.partition("Contents.")[2]
+    assert set(dir(holomorph)) - {"__version__"} <= set(re.findall(r"\w+", contents))
 
 
 def test_the_example_of_the_package_runs():

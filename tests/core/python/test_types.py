@@ -27,7 +27,7 @@ WRONG = "\n\nperiods: int = holomorph.Tiler.tile(3)\n"
 
 def functions():
     """(name, function) of all public functions, methods and properties."""
-    for name in holomorph.__all__:
+    for name in dir(holomorph):
         value = getattr(holomorph, name)
         members = vars(value) if inspect.isclass(value) or inspect.ismodule(value) else {"": value}
         for kind in value.__mro__ if inspect.isclass(value) else ():
@@ -37,6 +37,14 @@ def functions():
             is_ours = getattr(entry, "__module__", "").startswith("holomorph")
             if inspect.isfunction(entry) and is_ours and (not member.startswith("_") or member == "__init__"):
                 yield f"{name}.{member}", entry
+
+
+def test_type_checkers_take_the_same_names_for_public():
+    """The list in the source, which is not there at run time."""
+    tree = ast.parse(Path(holomorph.__file__).read_text("utf-8"))
+    assigned = [node for node in ast.walk(tree) if isinstance(node, ast.Assign)]
+    (names,) = (ast.literal_eval(node.value) for node in assigned if ast.unparse(node.targets[0]) == "__all__")
+    assert sorted(names) == sorted(dir(holomorph)) and not hasattr(holomorph, "__all__")
 
 
 def test_every_public_function_is_annotated():

@@ -14,7 +14,7 @@ OTHERS = ("mesh.obj", None, 3, np.zeros((3, 3)))
 
 def functions_of_surfaces():
     """Names of public functions and classes that need a surface alone."""
-    for name in holomorph.__all__:
+    for name in dir(holomorph):
         value = getattr(holomorph, name)
         is_made_by_callers = inspect.isfunction(value) or value in (holomorph.Tiler, ProgressiveMesh)
         parameters = list(inspect.signature(value).parameters.values()) if is_made_by_callers else []
