@@ -132,11 +132,13 @@ def _draw_dials(layout, context, dials, text):
     made.operator(HOLOMORPH_OT_quarter.bl_idname, text="", icon="DRIVER_ROTATIONAL_DIFFERENCE")
     if found.points:
         made = row(layout, f"{found.points} Points")
-        made.operator(drag.HOLOMORPH_OT_drag_poles.bl_idname, text="Drag", icon="VIEW_PAN")
+        if found.movable:
+            made.operator(drag.HOLOMORPH_OT_drag_poles.bl_idname, text="Drag", icon="VIEW_PAN")
         if dials.moved:
             made.operator(drag.HOLOMORPH_OT_automatic_points.bl_idname, text="", icon="LOOP_BACK")
         is_shown = getattr(context.window_manager, overlay.MARKS)
-        made.prop(context.window_manager, overlay.MARKS, text="", icon="HIDE_OFF" if is_shown else "HIDE_ON")
+        text = "" if found.movable else "Shown"
+        made.prop(context.window_manager, overlay.MARKS, text=text, icon="HIDE_OFF" if is_shown else "HIDE_ON")
 
 
 def shows_turns(text):

@@ -38,9 +38,10 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
 
         obj = context.active_object
         text = obj.get(report.PROPERTY) if obj is not None and obj.type == "MESH" else None
-        if not stored.found(text).points:
-            return "Select an object whose map has points"
-        return ""
+        found = stored.found(text)
+        if found.points and not found.movable:
+            return "The points of a map that is cut stay where they are: set Seams in Advanced to None for others"
+        return "" if found.points else "Select an object whose map has points"
 
     def execute(self, context):
         """Moves the poles at once: for scripts, and the redo panel."""

@@ -39,7 +39,8 @@ class Session:
         own, _ = request.own_texture(dials)
         self._options, self._write_options = request.Run(dials, [self.target], own, goes_on=True).only
         self._asked = self._options.tiling
-        self.are_cones, self._earlier = len(stored.cones(text)) > 0, request.moved_points(dials, self.target)
+        tilings = stored.whole_tilings(text)
+        self.are_cones, self._earlier = len(stored.cones(tilings)) > 0, request.moved_points(dials, self.target)
         self._count = points.asked_count(dials)
         self._task = targets.tasks([self.target])[0]
         self.mapped = None
@@ -48,8 +49,8 @@ class Session:
         if not self._tiled(self.mapped):
             reasons = [part.skipped or part.not_seamless for part in self.mapped.parts]
             raise ValueError(f"{obj.name}: {'; '.join(filter(None, reasons))}")
-        vertices, is_pole = stored.marks(text)
-        if not np.array_equal(self.poles, stored.cones(text) if self.are_cones else vertices[is_pole]):
+        vertices, is_pole = stored.marks(tilings)
+        if not np.array_equal(self.poles, stored.cones(tilings) if self.are_cones else vertices[is_pole]):
             raise ValueError(f"{obj.name}: its mesh has changed since it was tiled; {AGAIN}")
         self._uv, self._is_shown = uv_maps.read_map(obj.data, self._map), False
         self._parts = [part.component.surface.vertex_index for part in self._tiled(self.mapped)]

@@ -279,7 +279,7 @@ def _poles(dials, obj):
 def _poles_where_coarse(obj):
     """The poles of the last tiling, and the coarsest vertices of the places that its report names."""
     text = obj.get(report.PROPERTY)
-    vertices, is_pole = stored.marks(text)
+    vertices, is_pole = stored.marks(stored.whole_tilings(text))
     if not is_pole.any():
         return "auto"
     found = [place["vertex"] for place in stored.parsed(text).get("coarse_places", [])]

@@ -86,7 +86,8 @@ def _all_points(objects, dragged):
 def _points(obj, dragged):
     """The marks of an object with a report: (n, 3) places in the world, (n,) kinds, (n,) whether the pointer is on
     it."""
-    (vertices, is_pole), cones = stored.marks(obj[report.PROPERTY]), stored.cones(obj[report.PROPERTY])
+    tilings = stored.tilings(obj[report.PROPERTY])
+    (vertices, is_pole), cones = stored.marks(tilings), stored.cones(tilings)
     kinds = np.where(is_pole, POLE, ZERO)
     if dragged is not None:  # these first, as they are numbered
         vertices, kind = np.concatenate([dragged.poles, dragged.zeros]), CONE if dragged.are_cones else POLE

@@ -45,16 +45,16 @@ def whole_tilings(stored):
     return [part["tiling"] for part in parsed(stored).get("components", []) if "tiling" in part]
 
 
-def marks(stored):
-    """The marks of tilings of whole parts: ((n,) vertices, (n,) whether each is a pole, else a branch point)."""
-    poles = [vertex for tiling in whole_tilings(stored) for vertex in tiling["poles"]]
-    zeros = [vertex for tiling in whole_tilings(stored) for vertex in tiling["zeros"]]
+def marks(found):
+    """The marks of tilings: ((n,) vertices, (n,) whether each is a pole, else a branch point)."""
+    poles = [vertex for tiling in found for vertex in tiling["poles"]]
+    zeros = [vertex for tiling in found for vertex in tiling["zeros"]]
     return np.array(poles + zeros, np.int64), np.arange(len(poles) + len(zeros)) < len(poles)
 
 
-def cones(stored):
-    """(n,) vertices at which the tilings of whole parts that turn have cones, in the place of poles."""
-    return np.array([vertex for tiling in whole_tilings(stored) for vertex in tiling.get("cones", [])], np.int64)
+def cones(found):
+    """(n,) vertices at which tilings that turn have cones, in the place of poles."""
+    return np.array([vertex for tiling in found for vertex in tiling.get("cones", [])], np.int64)
 
 
 def turns(stored):
@@ -65,11 +65,12 @@ def turns(stored):
 class Found(NamedTuple):
     """What a panel shows of the tilings of a map, beside the dials that asked for them.
 
-    points : how many there are; turns : see `turns`; tiles, width : how many, and how wide they are on the surface; 0
+    points : how many there are; movable : of these those of whole parts, which can be dragged; turns : see `turns`; tiles, width : how many, and how wide they are on the surface; 0
         without tilings; forms : the largest number of any part
     """
 
     points: int = 0
+    movable: int = 0
     turns: int = 1
     tiles: int = 0
     width: float = 0.0
@@ -83,8 +84,12 @@ def found(stored):
     tiles = min(sum(part["tiling"]["tiles"] for part in parts), MOST_TILES)
     area = max(sum(part["area"] for part in parts), 0.0)
     forms = max((part.get("forms", 0) for part in parsed(stored).get("components", [])), default=0)
-    points = sum(len(part["tiling"]["poles"]) + len(part["tiling"]["cones"]) for part in parts)
-    return Found(points, turns(stored), round(tiles), math.sqrt(area / tiles) if tiles > 0 else 0.0, forms)
+    points, movable = (_point_count(found) for found in (tilings(stored), whole_tilings(stored)))
+    return Found(points, movable, turns(stored), round(tiles), math.sqrt(area / tiles) if tiles > 0 else 0.0, forms)
+
+
+def _point_count(found):
+    return sum(len(tiling["poles"]) + len(tiling["cones"]) for tiling in found)
 
 
 def asked(stored):

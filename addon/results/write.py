@@ -101,7 +101,7 @@ def _write_object(step, outcome, target, made, options):
     report.store(obj, entry)
     step.remove(tags.empties_of(obj))
     if options.empties:
-        tags.write_empties(step.context, obj, *stored.marks(obj[report.PROPERTY]))
+        tags.write_empties(step.context, obj, *stored.marks(stored.whole_tilings(obj[report.PROPERTY])))
     outcome.add(obj, target, made, written, entry)
 
 

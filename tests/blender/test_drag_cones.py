@@ -1,5 +1,7 @@
 """Cones of maps that turn, dragged as poles are: by the operator as scripts call it, and a session without events."""
 
+import json
+
 import bpy
 import numpy as np
 import pytest
@@ -29,7 +31,10 @@ def cones(obj):
 
 
 def neighbour(obj, vertex):
-    taken = cones(obj)
+    return neighbour_of(obj, vertex, cones(obj))
+
+
+def neighbour_of(obj, vertex, taken=()):
     near = [set(edge.vertices) - {vertex} for edge in obj.data.edges if vertex in edge.vertices]
     return next(v for (v,) in near if v not in taken)
 
@@ -178,6 +183,23 @@ def two_balls():
     vertices, faces = sphere_arrays(3)
     moved = [(x + 2, 0.7 * y, z) for x, y, z in vertices]
     return vertices + moved, faces + [tuple(v + len(vertices) for v in face) for face in faces]
+
+
+def test_points_of_a_map_in_pieces_are_shown_and_stay():
+    """As of a body that is cut open where few see it: the tiling is that of a piece."""
+    obj = ball()
+    tile()
+    select(obj)
+    entry, places = stored_report(obj), sorted(cones(obj))
+    part = entry["components"][0]
+    part["tilings"] = [part.pop("tiling")]
+    obj["holomorph_report"] = json.dumps(entry)
+    points, kinds, _ = marks._points(obj, None)
+    assert len(points) == len(places) and (kinds == marks.CONE).all()
+    found = stored.found(obj["holomorph_report"])
+    assert found.points == len(places) and found.movable == 0
+    with pytest.raises(RuntimeError, match="cut stay where they are: set Seams in Advanced to None"):
+        move(f"0:{neighbour_of(obj, places[0])}")
 
 
 def test_dots_follow_the_pointer():

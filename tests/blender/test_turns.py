@@ -476,7 +476,7 @@ def test_again_and_undone():
     tile(turns="QUARTER", tiles=100)
     first = uv(obj)
     tile(turns="NONE")
-    assert len(stored.cones(obj["holomorph_report"])) == 0
+    assert len(stored.cones(stored.tilings(obj["holomorph_report"]))) == 0
     tile(turns="QUARTER", tiles=100)
     assert np.array_equal(uv(obj), first)
     bpy.ops.uv.holomorphic_remove_maps()

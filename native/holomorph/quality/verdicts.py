@@ -29,7 +29,7 @@ SHEAR = (None, "slightly sheared", "sheared", "badly sheared")
 UNSEEN = 0.3  # angle distortion that evening may add unseen at evenness 1: it is spread out, and squares have one size
 LOST = 0.002  # part of the area that is flipped, has collapsed or has no map: less is not told
 IN_VIEW, FOLDED = 0.05, 0.1  # lengths of seams and of folds over the root of the area: less is not told
-SHORT = 0.25  # likewise, of seams whose length is not told
+SHORT, LONG = 0.25, 3.0  # likewise, of seams that are called short and long: as a number nobody sees it on thin things
 TILED = 0.1  # part of the area that has tilings: poles, turns and cones of less are not told
 OVERLAPPING = 1e-6, 0.01, 0.2  # part of the map that islands cover twice: less is rounding, and the limits of levels
 USED = 0.4  # part of the image that islands cover: less wastes texels
@@ -204,10 +204,9 @@ def _seams(seen):
     """Whether seams are in view, where that is known."""
     if seen.seams is None:
         return None
-    if seen.seams > SHORT:
-        return f"seams in view ({_factor(seen.seams)} times its size)"
     if seen.seams > IN_VIEW:
-        return "short seams in view"
+        length = "short " if seen.seams <= SHORT else "long " if seen.seams > LONG else ""
+        return f"{length}seams in view"
     if seen.hidden > IN_VIEW:
         return "seams at hard edges"
     return "no seams" if seen.poles is None else "seamless"

@@ -17,7 +17,7 @@ def uv(obj, name="Holomorphic"):
 
 def stored_poles(obj):
     """Vertices."""
-    vertices, is_pole = stored.marks(obj["holomorph_report"])
+    vertices, is_pole = stored.marks(stored.tilings(obj["holomorph_report"]))
     return vertices[is_pole].tolist()
 
 
