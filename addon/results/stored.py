@@ -65,8 +65,9 @@ def turns(stored):
 class Found(NamedTuple):
     """What a panel shows of the tilings of a map, beside the dials that asked for them.
 
-    points : how many there are; movable : of these those of whole parts, which can be dragged; turns : see `turns`; tiles, width : how many, and how wide they are on the surface; 0
-        without tilings; forms : the largest number of any part
+    points : how many there are; movable : of these those of whole parts, which can be dragged; turns : see `turns`
+    tiles, width : how many, and how wide they are on the surface; 0 without tilings; forms : the largest number of any
+        part
     """
 
     points: int = 0
