@@ -61,11 +61,14 @@ class Explained:
         for window in bpy.context.window_manager.windows:  # sidebars do not see that there is a report, nor editors UVs
             for area in window.screen.areas:
                 area.tag_redraw()
+        from ..results import report
+
+        problems, notes = report.in_short(outcome.problems), report.in_short(outcome.notes)
         if not outcome.done:
-            return self.refuse("; ".join(outcome.problems) or "No mesh selected")
-        for sentence in outcome.problems:
+            return self.refuse("; ".join(problems) or "No mesh selected")
+        for sentence in problems:
             self.report({"WARNING"}, sentence)
-        for sentence in outcome.notes:
+        for sentence in notes:
             self.report({"INFO"}, sentence)
         if not outcome.problems and not outcome.notes:
             self.report({"INFO"}, f"Holomorphic UV maps written: {', '.join(outcome.done)}")

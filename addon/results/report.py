@@ -106,6 +106,7 @@ def run_report(entries):
 
 
 NAMED = 4  # parts that a message numbers
+MOST_TOLD = 8  # messages at a time
 UNUSED = "your choice was not used"
 OVERLAP = "UV > Select Overlap shows where"
 CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
@@ -179,6 +180,24 @@ class Outcome:
         count = entry["faces_without_area"]
         if count:
             self.problems.append(f"{obj.name}: {count} faces are too small in the map for Blender's single precision")
+
+
+def in_short(sentences):
+    """Sentences about objects, "name: what", as messages: one for all objects of which the same is said, and where
+    there would be more than `MOST_TOLD`, one with their number."""
+    names = {}
+    for sentence in sentences:
+        name, _, what = sentence.partition(": ")
+        names.setdefault(what or sentence, []).append(name if what else "")
+    told = [_of_all(found, what) for what, found in names.items()]
+    if len(told) <= MOST_TOLD:
+        return told
+    return [f"{len(sentences):,} messages; the panel of each object has its own. The first: {sentences[0]}"]
+
+
+def _of_all(names, what):
+    more = f" and {len(names) - 1:,} more" if len(names) > 1 else ""
+    return f"{names[0]}{more}: {what}" if names[0] else what
 
 
 def together(outcomes):

@@ -457,3 +457,18 @@ def test_polygons_are_read_as_blender_gives_them():
     assert polygons.corner_vertices.tolist() == [loop.vertex_index for loop in obj.data.loops]
     assert polygons.face_offsets.tolist() == [p.loop_start for p in obj.data.polygons] + [15]
     assert np.abs(polygons.vertices - vertices).max() < 1e-6
+
+
+def test_many_objects_give_few_messages(capfd):
+    """One where all are told the same; one with their number where each is told something else."""
+    objs = [mesh_object(f"Ring {k}", *torus_arrays(12, 8)) for k in range(12)]
+    select(*objs)
+    assert run() == {"FINISHED"}
+    said = [line for line in capfd.readouterr().out.splitlines() if ": " in line]
+    assert len(said) == 1 and said[0].startswith(f"Warning: {objs[0].name} and 11 more: To tile: ")
+    in_short, different = module("results.report").in_short, [f"Box {k}: {k} faces left out" for k in range(9)]
+    assert in_short(different[:8]) == different[:8] and in_short([]) == []
+    assert in_short(different) == [
+        "9 messages; the panel of each object has its own. The first: Box 0: 0 faces left out"
+    ]
+    assert in_short(["Box: no", "a plain sentence", "Ball: no"]) == ["Box and 1 more: no", "a plain sentence"]

@@ -62,19 +62,19 @@ def tile(**options):
 
 
 def marks(obj):
-    vertices, is_pole = stored_text.marks(obj["holomorph_report"])
+    vertices, is_pole = stored_text.marks(stored_text.tilings(obj["holomorph_report"]))
     return vertices.tolist(), is_pole.tolist()
 
 
 def whole_jumps(obj):
     """Those of the UVs across each edge, at the ends that are not poles."""
     vertices, jumps = edge_jumps(obj)
-    found, is_pole = stored_text.marks(obj["holomorph_report"])
+    found, is_pole = stored_text.marks(stored_text.tilings(obj["holomorph_report"]))
     return jumps[~np.isin(vertices, found[is_pole])]
 
 
 def selected_poles(obj):
-    found, is_pole = stored_text.marks(obj["holomorph_report"])
+    found, is_pole = stored_text.marks(stored_text.tilings(obj["holomorph_report"]))
     return found[is_pole].tolist()
 
 
@@ -325,7 +325,7 @@ def test_the_number_of_tiles_that_was_chosen_is_told(calls):
 
 @pytest.mark.parametrize("stored", ["", "{", "[]", "null", '{"components": []}', '{"components": [{"genus": 1}]}'])
 def test_no_marks_without_a_tiling(stored):
-    vertices, is_pole = stored_text.marks(stored)
+    vertices, is_pole = stored_text.marks(stored_text.tilings(stored))
     assert len(vertices) == len(is_pole) == 0
 
 

@@ -44,7 +44,8 @@ def note_stages():
 
 
 def poles():
-    vertices, is_pole = addon("results.stored").marks(obj()["holomorph_report"])
+    stored = addon("results.stored")
+    vertices, is_pole = stored.marks(stored.tilings(obj()["holomorph_report"]))
     return vertices[is_pole].tolist()
 
 

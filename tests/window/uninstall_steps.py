@@ -3,6 +3,8 @@
 Leaves FOLDER/uninstall_steps.json and pictures.
 """
 
+from pathlib import Path
+
 import bpy
 from preferences import PACKAGE, open_section
 from running import run, wait_until
@@ -22,7 +24,8 @@ def uninstall():
     index = bpy.context.preferences.extensions.repos.find("User Default")
     bpy.ops.extensions.package_uninstall("INVOKE_DEFAULT", repo_index=index, pkg_id="holomorph")
     yield from wait_until(lambda: not is_there())
-    yield 1
+    place = Path(bpy.utils.user_resource("EXTENSIONS"))
+    yield from wait_until(lambda: not [*place.rglob("holomorph*")])  # its wheels go later, by another process
     seen["after"] = is_there()
     picture("uninstall_after.png")
 
