@@ -126,6 +126,11 @@ def test_links_of_a_page_lead_somewhere(page):
     assert not [link for link in LINK.findall(text_of(page)) if not leads_somewhere(page, *link)]
 
 
+@pytest.mark.parametrize("page", PAGES)
+def test_no_link_reads_like_a_file(page):
+    assert not re.findall(r"\[[^\]]*\.md\]\(", text_of(page))
+
+
 def test_a_broken_link_is_found():
     assert not leads_somewhere("docs/tiling.md", "nowhere.md", "") and not leads_somewhere("docs/tiling.md", "", "no")
     assert leads_somewhere("docs/tiling.md", "method/tilings.md", "round-the-periods")
