@@ -7,7 +7,7 @@ import what needs these inside their functions.
 
 from . import native, preferences
 from .command_line import registration
-from .interface import map_panel, menus, panel
+from .interface import map_panel, menus, panel, words
 from .operators import (
     bake,
     compare,
@@ -54,6 +54,7 @@ MODULES = (
     bake,
     overlay,
     tools,
+    words,
     map_panel,
     menus,
     panel,

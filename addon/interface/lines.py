@@ -3,22 +3,25 @@
 
 import blf
 
+from . import words
+
 FONT = 0
 BESIDE = 66  # pixels of a sidebar's width that are not text, in a user interface of normal size: tabs, margins, box
 ICON = 26  # likewise, of an icon
 
 
 def draw(layout, context, text, icon="NONE", indent=0):
-    """Labels with the words of a sentence, the icon before the first; `indent` is that of further lines, in spaces."""
-    for line in broken(text, fits(context, icon != "NONE"), indent):
+    """Labels with the words of a sentence, in the user's language, the icon before the first; `indent` is that of
+    further lines, in spaces."""
+    for line in broken(words.said(text), fits(context, icon != "NONE"), indent):
         layout.label(text=line, icon=icon)
         icon = "BLANK1" if icon != "NONE" else icon
 
 
 def broken(text, is_fit, indent=0):
     """Lines of as many words as fit."""
-    line, *words = text.split(" ")
-    for word in words:
+    line, *others = text.split(" ")
+    for word in others:
         if line.strip() and not is_fit(f"{line} {word}"):
             yield line
             line = " " * indent + word

@@ -13,12 +13,13 @@ from ..operators.properties import FORMS, UNLINED
 from ..operators.symmetric import HOLOMORPH_OT_make_symmetric
 from ..overlays import overlay
 from ..scene import stored_dials
-from . import lines
+from . import lines, words
 
 UNTILED = {"BALANCED", "ISLANDS"}  # values of the dial of seams without tiles that fit together
 SECONDS_EACH = 7e-5  # for each triangle: some 6 s at 100,000, by `scripts/benchmark click`
 LONG = 5  # seconds from which on they are told before
 NARROW = 240  # pixels of a sidebar in which other words need the room of a fraction
+MAKING = "Making Map (ESC stops)"
 TURNED = {2: "½", 4: "¼", 6: "⅙"}
 
 
@@ -106,10 +107,10 @@ def _draw_button(layout, is_update):
         layout.operator(HOLOMORPH_OT_maps.bl_idname, text=text, icon="UV")
         layout.menu(HOLOMORPH_MT_make.__name__, text="", icon="DOWNARROW_HLT")
     elif bpy.app.version >= (4, 0):
-        layout.progress(text="Making Map (ESC stops)", factor=running.watch.fraction)
+        layout.progress(text=words.said(MAKING), factor=running.watch.fraction)
         layout.operator(HOLOMORPH_OT_stop.bl_idname, text="", icon="X")
     else:
-        layout.label(text=f"Making Map: {running.watch.fraction:.0%} (ESC stops)")
+        layout.label(text=f"{words.said(MAKING)}: {running.watch.fraction:.0%}")
 
 
 def _draw_dials(layout, context, dials, text):
@@ -131,7 +132,7 @@ def _draw_dials(layout, context, dials, text):
     made = dial(layout, dials, "direction")
     made.operator(HOLOMORPH_OT_quarter.bl_idname, text="", icon="DRIVER_ROTATIONAL_DIFFERENCE")
     if found.points:
-        made = row(layout, f"{found.points} Points")
+        made = row(layout, words.said(f"{found.points} Points"))
         if found.movable:
             made.operator(drag.HOLOMORPH_OT_drag_poles.bl_idname, text="Drag", icon="VIEW_PAN")
         if dials.moved:
