@@ -2,7 +2,7 @@
 include(GNUInstallDirs)
 
 set(rooms base linear lattice mesh tiles progressive solver topology forms elements conformal uv evening structure tiling turns
-  moduli plane islands multiresolution)
+  moduli plane islands choice multiresolution)
 set(public holomorph.h)
 if(TARGET OpenMeshCore)
   list(APPEND rooms openmesh)

@@ -14,6 +14,7 @@ FORMS = CORE + "conformal/test_conformal.py"
 BALLS = CORE + "moduli/test_balls.py"
 LOOKS = CORE + "automatic_map/test_looks.py"
 EYE = CORE + "uv/test_appearance.py"
+AUTOMATIC = CORE + "automatic_map/test_automatic_map.py"
 PARTS = CORE + "automatic_map/test_parts.py"
 SIZING = CORE + "automatic_map/test_sizing.py"
 EVENED = CORE + "evening/test_evened_forms.py"
@@ -247,13 +248,13 @@ MUTATIONS = (
         ("blades", "np.isin(sharp, ", "~np.isin(sharp, ", VERDICT),
     )
     | of(
-        PACKAGE + "maps/size.py",
-        ("like-size", "LIKE_SIZE = 1.095", "LIKE_SIZE = 1.19", SIZING),
+        ROOM + "choice/size.h",
+        ("like-size", "kLikeSize = 1.095", "kLikeSize = 1.19", SIZING),
     )
     | of(
-        PACKAGE + "maps/untiled.py",
-        ("most-curved", "MOST_CURVED = 8 *", "MOST_CURVED = 0.8 *", LOOKS),
-        ("good-islands", "GOOD = 0.8 ", "GOOD = 8.0 ", LOOKS),
+        ROOM + "choice/untiled.h",
+        ("most-curved", "kMostCurved = 8 *", "kMostCurved = 0.8 *", LOOKS),
+        ("good-islands", "kGood = 0.8;", "kGood = 8.0;", LOOKS),
     )
     | of(
         ROOM + "uv/appearance.h",
@@ -261,9 +262,9 @@ MUTATIONS = (
         ("shear-free", "kShear = 2;", "kShear = 0.2;", EYE),
     )
     | of(
-        PACKAGE + "mesh/copies.py",
-        ("copies", "SINGLE = 2.0**-22", "SINGLE = 2.0**-18", PARTS),
-        ("copies-tenth", "SINGLE = 2.0**-22", "SINGLE = 0.1 * 2.0**-22", PARTS),
+        ROOM + "choice/copies.cpp",
+        ("copies", "kSingle = 0x1p-22", "kSingle = 0x1p-18", PARTS),
+        ("copies-tenth", "kSingle = 0x1p-22", "kSingle = 0x1p-25", PARTS),
     )
     | of(ROOM + "mesh/input_filter.h", ("wild", "kWild = 1e9", "kWild = 1e13", WILD))
     | of(
@@ -305,12 +306,30 @@ MUTATIONS = (
     )
     | of(ROOM + "evening/strain_energy.cpp", ("thin-triangles", "kThinArea = 1e-6", "kThinArea = 1e-2", THIN))
     | of(ROOM + "evening/turned_solver.cpp", ("cover-signs", "part == 0 ? -im : im", "im", "native:TurnedSolver*"))
-    | of(PACKAGE + "maps/tiling_search.py", ("lines-asked", "lines in EDGED and len", "lines in () and len", ASKED))
     | of(
-        PACKAGE + "maps/piece_search.py",
-        ("cones-of-pieces", "tiling.seams, tiling.cones", "tiling.seams, zeros", ASKED),
+        ROOM + "choice/tiling_search.cpp",
+        ("lines-asked", "(are_edged && !edges", "(false && !edges", ASKED),
+        ("most-lost", "!(lost < kMostLost)", "!(lost < 1)", AUTOMATIC),
+        ("stretched-too-far", "factor <= kMostStretched)", "factor <= 9)", "native:TilingSearch*"),
+        ("stretched-jumps", "std::abs((std::conj(line)", "0 * std::abs((std::conj(line)", "native:TilingSearch*"),
     )
-    | of(PACKAGE + "maps/mixed.py", ("cones-cost", "self.hard_length, cones)", "self.hard_length)", ASKED))
+    | of(ROOM + "choice/budget.h", ("budget-nested", "budget_.depth_++ == 0", "++budget_.depth_", "native:Budget*"))
+    | of(
+        ROOM + "choice/side_by_side.cpp",
+        ("first-error", "part_ < part) return", "part_ > part) return", "native:SideBySide*"),
+        ("largest-first", "std::ranges::greater()", "std::ranges::less()", "native:SideBySide*"),
+        ("crew-cancels", "return goes_on_.load();", "return true;", "native:*SideBySide*"),
+    )
+    | of(ROOM + "choice/size.cpp", ("window-middle", "-std::abs(std::log", "std::abs(std::log", "native:BestWindow*"))
+    | of(ROOM + "choice/truncated.cpp", ("cut-off", "kCut = 1.0 / 3", "kCut = 2.0 / 3", "native:Truncated*"))
+    | of(
+        ROOM + "choice/mixed_map.cpp",
+        ("cones-of-pieces", "for (int& v : tiling.cones) v = vertex_index[v];", "", ASKED),
+    )
+    | of(
+        ROOM + "choice/map.cpp",
+        ("cones-cost", "mixed_->tilings) marks.cones +=", "mixed_->tilings) marks.cones *=", ASKED),
+    )
     | of(PACKAGE + "batch/textured.py", ("centre-of-turns", "+ np.array(found.centre) / images", "", GLB))
     | of(
         ROOM + "turns/mirrored.cpp",

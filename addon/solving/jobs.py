@@ -27,7 +27,7 @@ DOUBLES_OF_MAP = 6  # for each corner: UVs and quality
 KEPT_MAPS = 4  # maps kept for each object: the redo panel goes back and forth between a few
 # Solves, so that the dials of the redo panel cost one small matrix product and no solve: an object that was moved,
 # renamed, undone or reopened has the same, one that was edited has not.
-KEPT = holomorph.core.newest.Kept(1_200_000_000)
+KEPT = module("core.newest").Kept(1_200_000_000)
 
 
 @dataclass(frozen=True)

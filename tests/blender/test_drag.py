@@ -52,39 +52,33 @@ def neighbour(obj, vertex, steps=1):
 
 @pytest.fixture
 def stages(monkeypatch):
-    """The stages that the library went through, and "placing" where it placed poles."""
-    noted, kind = [], native.load().forms.results.Tiler
+    """The stages that the library went through."""
+    search, noted = native.load().maps.map_objects, []
+    made = search.map_objects
 
-    def noting(progress):
-        return lambda fraction, stage: (noted.append(stage), progress is None or progress(fraction, stage))[1]
+    def noting(objects, size, progress):
+        def told(fraction, stage):
+            noted.append(stage)
+            return progress is None or progress(fraction, stage)
 
-    class Noted(kind):
-        def __init__(self, surface, wanted, *, progress, **options):
-            noted.append("placing")
-            super().__init__(surface, wanted, progress=noting(progress), **options)
+        return made(objects, size, progress=told)
 
-        def tile(self, *wanted, progress, **options):
-            return super().tile(*wanted, progress=noting(progress), **options)
-
-        def move_poles(self, tiling, moves, *, progress):
-            return super().move_poles(tiling, moves, progress=noting(progress))
-
-    monkeypatch.setattr(native.load().forms.results, "Tiler", Noted)
+    monkeypatch.setattr(search, "map_objects", noting)
     return noted
 
 
 def test_other_tiles_rotations_and_lattices_place_no_poles_again(stages):
     torus()
     tile()
-    assert {"placing", "rounding"} <= set(stages)
+    assert {"search for poles", "rounding"} <= set(stages)
     for options in ({"lattice": "hex"}, {"lattice": "square"}, {"tiles": 150}, {"rotation": 0.3}, {"quarters": 1}):
         stages.clear()
         assert tile(**options) == {"FINISHED"}
-        assert "placing" not in stages
+        assert "search for poles" not in stages
     assert stages == []
     bpy.context.active_object.data.vertices[0].co.x += 0.01
     tile()
-    assert "placing" in stages
+    assert "search for poles" in stages
 
 
 def test_tilers_count_in_the_size_of_what_is_kept(monkeypatch):
@@ -106,7 +100,7 @@ def test_a_pole_goes_where_it_is_put_and_the_map_stays_seamless(stages):
     before, place = poles(obj), neighbour(obj, poles(obj)[1])
     stages.clear()
     assert move(f"1:{place}") == {"FINISHED"}
-    assert not {"rounding", "placing"} & set(stages)
+    assert not {"rounding", "search for poles"} & set(stages)
     assert poles(obj)[1] == place != before[1]
     vertices, jumps = edge_jumps(obj)
     jumps = jumps[~np.isin(vertices, poles(obj))]

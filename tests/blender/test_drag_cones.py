@@ -125,11 +125,13 @@ def test_a_map_that_would_lose_too_much_is_refused_in_a_sentence(monkeypatch):
     obj = ball()
     tile()
     before, session = everything(obj), drag_session.Session(obj)
-    monkeypatch.setattr(native.load().maps.tiling_search, "MOST_LOST", -1.0)
-    with pytest.raises(ValueError, match="it would lose 0 % of its area"):
+    search = native.load().maps.map_objects
+    lost = native.load().TopologyError("it would lose 3 % of its area")
+    monkeypatch.setattr(search, "map_objects", lambda objects, size, **_: [search.MappedParts([lost], size)])
+    with pytest.raises(ValueError, match="it would lose 3 % of its area"):
         session.made({0: neighbour(obj, int(session.poles[0]))})
     module("solving.jobs").KEPT.clear()
-    with pytest.raises(ValueError, match="it would lose 0 % of its area"):
+    with pytest.raises(ValueError, match="it would lose 3 % of its area"):
         drag_session.Session(other)
     assert everything(obj) == before
 

@@ -209,12 +209,15 @@ def test_the_report_begins_with_words():
 def test_refused_parts_are_told_and_keep_their_map(monkeypatch):
     obj = torus()
     library = module("native").load()
+    search = library.maps.map_objects
+    made = search.map_objects
 
-    def refuse(*_arguments, **_options):
-        raise library.TopologyError("too few tiles")
+    def refuse(objects, size, **options):
+        if objects[0][0].main != "seamless":
+            return made(objects, size, **options)
+        return [search.MappedParts([library.TopologyError("too few tiles")], size)]
 
-    monkeypatch.setattr(library.forms.results, "Tiler", refuse)
-    monkeypatch.setattr(library.forms.results, "TurnedTiler", refuse)
+    monkeypatch.setattr(search, "map_objects", refuse)
     assert press(main="SEAMLESS") == {"FINISHED"}
     assert tilings(obj) == [None] and fills_the_square(uv(obj))
     outcome = written(obj, main="SEAMLESS")

@@ -143,15 +143,14 @@ def test_the_best_map_of_an_even_ring_needs_no_cones():
 def test_only_what_changed_is_made_again(monkeypatch):
     """Textures with the same turns share a map, and maps for others are kept beside it."""
     ball()
-    library, made = module("native").load(), []
-    kind = library.forms.results.TurnedTiler
+    search, made = module("native").load().maps.map_objects, []
+    make = search.map_objects
 
-    class Noted(kind):
-        def tile(self, *arguments, **options):
-            made.append(arguments)
-            return super().tile(*arguments, **options)
+    def noting(*arguments, **options):
+        made.append(arguments)
+        return make(*arguments, **options)
 
-    monkeypatch.setattr(library.forms.results, "TurnedTiler", Noted)
+    monkeypatch.setattr(search, "map_objects", noting)
     tile()
     assert made
     made.clear()

@@ -106,3 +106,12 @@ def test_tilings_that_turn_are_those_of_the_python_package(examples, name, tmp_p
     cones = len(made.cones)
     figures = f"{cones} {made.quality.mean_angle:.17g} {cost(made.quality, cones=cones):.17g}"
     assert_same(examples / "turned_uv", tmp_path / "mesh.obj", figures, made.uv)
+
+
+CHOSEN = ISLANDS | MESHES | {"sphere": families.geodesic_sphere(4), "blade": families.saw_blade()}
+
+
+@pytest.mark.parametrize("name", CHOSEN)
+def test_the_map_of_the_button_is_that_of_the_python_package(examples, name, tmp_path):
+    made = holomorph.automatic_map(read_again(CHOSEN[name], tmp_path / "mesh.obj"))
+    assert_same(examples / "automatic_uv", tmp_path / "mesh.obj", f"{made.why}; cost {made.cost:.17g}", made.uv)

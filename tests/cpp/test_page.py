@@ -14,25 +14,27 @@ using Mesh = OpenMesh::PolyMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
 void of_arrays(const holomorph::mesh::Polygons& polygons) {{
 {0}
 }}
-void tiled(const std::shared_ptr<holomorph::mesh::Surface>& part, holomorph::Execution& execution) {{
+void chosen(const std::shared_ptr<holomorph::mesh::Surface>& part, holomorph::Execution& execution) {{
 {1}
 }}
-void flat(const std::shared_ptr<holomorph::mesh::Surface>& part, const holomorph::uv::Quality& found,
-          holomorph::Execution& execution) {{
+void balanced(const std::shared_ptr<holomorph::mesh::Surface>& part, holomorph::Execution& execution) {{
 {2}
 }}
-void of_a_mesh(Mesh& mesh, holomorph::Execution& execution) {{
+void tiled(const std::shared_ptr<holomorph::mesh::Surface>& part, holomorph::Execution& execution) {{
 {3}
+}}
+void of_a_mesh(Mesh& mesh, holomorph::Execution& execution) {{
+{4}
 }}
 void with_forms(Mesh& mesh, const holomorph::openmesh::SurfaceOfMesh& part, holomorph::structure::Structure& structure,
                 holomorph::structure::PrimalForms* forms, holomorph::Execution& execution) {{
-{4}
-}}
-void of_a_file() {{
 {5}
 }}
-void of_openmesh(Mesh& mesh) {{
+void of_a_file() {{
 {6}
+}}
+void of_openmesh(Mesh& mesh) {{
+{7}
 }}
 int main() {{}}
 """

@@ -1,4 +1,4 @@
-"""What a verdict reads, by hand."""
+"""What a verdict reads, by hand; and quantiles of what was measured."""
 
 from dataclasses import dataclass, field
 
@@ -23,3 +23,10 @@ class Measured:
     @property
     def density_ratio(self):
         return self.size_range**2
+
+
+def quantiles(values, weights, shares):
+    """The values below which these shares of the weights lie."""
+    order = np.argsort(values, kind="stable")
+    total = np.cumsum(weights[order])
+    return [values[order[np.searchsorted(total, share * total[-1])]] for share in shares]

@@ -4,20 +4,13 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from .. import _native
 from .._native import TopologyError
-from ..core import arrays
 from ..core.array_types import Progress
 from ..core.progress import scaled
 from ..mesh.checks import check_threads, check_type, checked_evenness
 from ..mesh.surface import Surface
 from .island_layout import Islands
-
-HARD = _native.hard_angles  # degrees between two faces, from which on a seam is expected, if need be
-SMOOTH = _native.smooth_angle  # degrees: a part without sharper edges is a coarse mesh of something smooth
-EVENED = _native.evened_cost  # what remains of what is minded of the squares when they are evened, about
 
 
 def island_map(
@@ -60,15 +53,6 @@ def island_map(
         raise TopologyError("islands need a surface with positions; this one has edge lengths only")
     evenness, threads = checked_evenness(evenness), check_threads(threads or None)
     return IslandSearch(surface, evenness, threads, True).best(progress=progress)
-
-
-def one_island(surface, tiling):
-    """The `Islands` of a map whose jumps are not whole tiles any more, since a UV unit is to be one of length."""
-    size = math.sqrt(tiling.quality.median_density)
-    ends = surface.vertices[tiling.seams]
-    soft = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum() / math.sqrt(surface.area)
-    quality = tiling.quality.of_density(1.0)
-    return Islands(arrays.frozen(tiling.uv / size), tiling.seams, 1, float(soft), 0.0, quality, tiling.evenness)
 
 
 class IslandSearch:

@@ -15,7 +15,7 @@ from ..mesh.checks import check_memory_limit, check_options, only_component, own
 from ..mesh.surface import Surface
 from .pole_structure import PoleStructure
 from .results import result
-from .truncated import coarse_log_map
+from .truncated import sphere_structure
 
 
 def log_map(
@@ -55,15 +55,11 @@ def log_map(
     count, limit = check_options(solver, threads), check_memory_limit(memory_limit)
     component, given = only_component(surface), _residues(residues)
     vertices, labels = own_vertices(surface, component, [] if poles is None else poles, "pole")
-    is_chosen = bool(vertices or given)
-    try:
+    if vertices or given or (component.genus, component.boundary_count) != (0, 0):
         native = _native.pole_structure(component._native, vertices, given, labels, solver, count, limit, progress)
         made = result(PoleStructure, surface, component, native, count)
-    except TopologyError:
-        is_sphere = (component.genus, component.boundary_count) == (0, 0)
-        if is_chosen or not is_sphere or component.vertices is None:
-            raise
-        made = coarse_log_map(surface, component, solver, count, progress)  # the stars of any two vertices meet
+    else:
+        made = sphere_structure(surface, component, solver, count, limit, progress)
     own = np.array(poles).tolist() if vertices else None  # the caller's list may change
     options = {"solver": solver, "threads": threads, "memory_limit": memory_limit}
     return made.computed_by(partial(log_map, surface, own, given or None, **options))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numbers
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -15,19 +14,15 @@ from numpy.typing import ArrayLike
 from .. import _native
 from ..core import arrays
 from ..core.array_types import Integers, Progress, Reals
-from ..core.newest import Newest
-from ..core.progress import scaled
 from ..core.value import Solution, Value, counted
-from ..mesh.checks import checked_evenness, real_number
+from ..mesh.checks import real_number
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
+from ..tiling.options import part_of, tile_options
 from ..tiling.tiling import Tiler
-from ..tiling.tilings import Poles, Tiling, asked_poles
-from ..tiling.turned import LATTICE, TurnedTiler, asked_turns, check_chosen, check_cones, check_fits, checked_lines
+from ..tiling.tilings import Poles, Tiling
+from ..tiling.turned import LATTICE, asked_turns, check_chosen, check_cones, check_fits, checked_lines
 from .solver_report import Residuals, SolverReport
-
-PLACING = 0.6  # part of the work on a tiling, for finding the poles
-KEPT = 2  # tilings and their poles: more poles are tried where some are too few
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -44,7 +39,7 @@ class Structure(Value):
     """
 
     residuals_kind = Residuals
-    _unpickled = ("_triangulation", "_tilers", "_tilings")
+    _unpickled = ("_triangulation", "_part", "_core")
 
     surface: Surface
     solver: SolverReport
@@ -62,6 +57,20 @@ class Structure(Value):
         return super().__getstate__()
 
     _native = property(attrgetter("_solution.native"))
+
+    @cached_property
+    def _part(self):
+        return part_of(self.surface, self._component)
+
+    @property
+    def _connected(self):
+        """The surface, if it has one part; else the part."""
+        return self.surface if len(self.surface.components) == 1 else self._component
+
+    @cached_property
+    def _core(self):
+        """The core's own value, which keeps tilings."""
+        return _native.forms_structure(self.map_kind, self._part, self._native)
 
     def computed_by(self, compute: Callable[[], Structure]) -> Self:
         """Notes the call that computes the result, for pickles, and returns the result."""
@@ -160,9 +169,7 @@ class Structure(Value):
         Raises TopologyError for poles that do not fit, for fewer tiles than the surface needs (names how many are
         enough), and for more added distortion than `max_added` (names what can be had). Poles are kept.
         """
-        evenness = checked_evenness(evenness)
         tiles = tiles if density is None else self._tiles_of(density, tiles)
-        placing, rounding = scaled(progress, 0.0, PLACING), scaled(progress, PLACING, 1.0)
         turns = asked_turns(turns, texture)
         lines = checked_lines(lines, turns)
         check_chosen(marked, cones)
@@ -171,35 +178,17 @@ class Structure(Value):
             chosen = {"poles": (poles, "auto", 0), "turn": (turn, 0.0), "boundary": (boundary, "automatic")}
             chosen |= {"lattice": (lattice, "square", LATTICE.get(turns)), "max_added": (max_added,)}
             check_fits(chosen | {"allowed": (allowed,), "moves": (moves or None,)})
-            tiler = self._turned_tiler(surface, turns, direction=direction, lines=lines, marked=marked, cones=cones)
-            key = tiler, _hashable(tiles), evenness
-            made = self._tilings.get(key) or tiler.tile(tiles, evenness=evenness, progress=rounding)
-            return self._tilings.keep(key, made)
-        options = {"boundary": boundary, "allowed": allowed, "evened": evenness > 0, "surface": surface}
-        tiler = self.tiler(poles, **options, progress=placing)
-        rounded = {"tiles": tiles, "lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn}
-        rounded |= {"max_added": max_added, "size_counts": size_counts}
-        made = self._rounded(tiler, rounded, evenness, rounding)
-        return tiler.move_poles(made, moves, progress=rounding) if moves else made
+        surface = self._connected if surface is None else surface
+        asked = {"lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn, "boundary": boundary}
+        asked |= {"max_added": max_added, "size_counts": size_counts, "allowed": allowed, "moves": moves}
+        asked |= {"turns": turns, "lines": lines, "marked": marked, "cones": cones}
+        options = tile_options(surface, poles, tiles, evenness=evenness, **asked)
+        return Tiling.of_core(self._core.tile(options, threads=self._threads, progress=progress), surface)
 
     def _tiles_of(self, density, tiles):
         if tiles is not None:
             raise ValueError("give tiles or a density, not both")
         return real_number(density, "density", positive=True) * self._component.area
-
-    def _rounded(self, tiler, options, evenness, progress):
-        """What `Tiler.tile` gives; the last tilings are kept, and evened for another evenness."""
-        key = tiler, *((name, _hashable(value)) for name, value in options.items())
-        made = self._tilings.get(key)
-        if made is None:
-            made = tiler.tile(**options, evenness=evenness, progress=progress)
-        elif made.evenness != evenness:
-            made = tiler.even(made, evenness, progress=progress)
-        return self._tilings.keep(key, made)
-
-    @cached_property
-    def _tilings(self):
-        return Newest(KEPT)
 
     def tiler(
         self,
@@ -215,30 +204,12 @@ class Structure(Value):
         for.
 
         surface : the one whose vertices poles are named by, without its isolated vertices the same as was solved on;
-            default: the latter
+            default: that of the structure, where it is connected
         """
-        surface = self._component if surface is None else surface
-        count, chosen = asked_poles(poles)
-        mask = None if allowed is None else np.asarray(allowed, bool).tobytes()
-        key = surface, count, tuple(chosen), str(boundary), mask, bool(evened)
-        tiler = self._tilers.get(key)
-        if tiler is None:
-            options = {"boundary": boundary, "allowed": allowed, "evened": bool(evened), "threads": self._threads}
-            options["like"] = next((kept for kept in self._tilers.values() if isinstance(kept, Tiler)), None)
-            tiler = Tiler(surface, poles, **options, progress=progress)
-        return self._tilers.keep(key, tiler)
-
-    def _turned_tiler(self, surface, turns, **chosen):
-        surface = self._component if surface is None else surface
-        key = surface, turns, *map(_hashable, chosen.values())
-        tiler = self._tilers.get(key)
-        if tiler is None:
-            tiler = TurnedTiler(surface, turns, **chosen, threads=self._threads)
-        return self._tilers.keep(key, tiler)
-
-    @cached_property
-    def _tilers(self):
-        return Newest(KEPT)
+        surface = self._connected if surface is None else surface
+        asked = tile_options(surface, poles, boundary=boundary, allowed=allowed)
+        core = self._core.tiler(asked, evened=bool(evened), threads=self._threads, progress=progress)
+        return Tiler.of_core(surface, core, self._threads)
 
     def averaged_star(self, form: ArrayLike) -> Reals:
         """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an
@@ -268,13 +239,6 @@ class Structure(Value):
     def _of_surface(self, vertices):
         """Vertices of the component as vertices of the surface, which may have isolated ones besides."""
         return vertices if self._component is self.surface else arrays.frozen(self._component.vertex_index[vertices])
-
-
-def _hashable(value):
-    """An option of a tiling as a key."""
-    if value is None or isinstance(value, (str, numbers.Real)):
-        return value
-    return repr(sorted(value.items()) if isinstance(value, Mapping) else np.asarray(value).tolist())
 
 
 def result(kind, surface, component, native, threads, **more):

@@ -14,10 +14,9 @@ from ..tiling.tiling import Poles
 from ..tiling.turned import AUTOMATIC, asked_turns, check_chosen, checked_lines
 from .automatic_structure import AnyStructure
 from .map import Map
-from .map_objects import map_objects
+from .map_objects import Refusal, map_objects
 from .request import EVENNESS, MeshRequest, Request
 from .size import TOLERANCE, SizePolicy
-from .tiling_search import Refusal
 
 
 def automatic_map(
@@ -131,7 +130,7 @@ def automatic_maps(
     main : of all parts, or of each
     tiles, density : tiles over all parts, in proportion to their areas, or per unit of area, which the
         median of the largest part, and so of all, misses by 20 % at most, where whole tiles cannot have it; default
-        `usual_density`
+        100 tiles, or 64 for each handle, over the largest part
     poles : "auto", a number for each part, or a list of vertices; "auto" on parts without any
     allowed : (#V,) bool, where poles may be that are not chosen; parts without such vertices get none
     moves : (index of a pole in the tiling of its part, vertex) for each pole that is moved after the rounding

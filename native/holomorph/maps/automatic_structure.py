@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import TypeAlias
 
 from numpy.typing import ArrayLike
@@ -13,12 +14,13 @@ from ..forms.bounded import BoundedStructure
 from ..forms.closed import ConformalStructure
 from ..forms.log_map import log_map
 from ..forms.pole_structure import PoleStructure
+from ..forms.results import result
 from ..forms.structure import BOUNDARIES, conformal_structure
 from ..mesh.checks import check_thresholds, only_component
 from ..mesh.edges import around_boundary
 from ..mesh.surface import Surface
 from ..plane.cut import cut_along
-from ..plane.disk import default_disk_map, disk_map, free_boundary_map, rectangle_map
+from ..plane.disk import default_disk_map, disk_map, disk_structure_of, free_boundary_map, rectangle_map
 from ..plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
 
 AnyStructure: TypeAlias = (
@@ -94,3 +96,15 @@ def _by_topology(surface, boundary, thresholds, memory_limit, options):
         return log_map(surface, memory_limit=memory_limit, **options)
     more = {"boundary": boundary, "thresholds": thresholds, "memory_limit": memory_limit}
     return conformal_structure(surface, **more, **options)
+
+
+def structure_of(core, surface, threads):
+    """The structure of a connected surface that the core made by itself."""
+    component = only_component(surface)
+    if core.kind in ("forms", "strip"):
+        kind = BoundedStructure if component.boundary_count else ConformalStructure
+        made = result(kind, surface, component, core.solved, threads)
+        vars(made)["_core"] = core
+    else:
+        made = disk_structure_of(core, surface, component, threads)
+    return made.computed_by(partial(automatic_structure, surface, threads=threads))

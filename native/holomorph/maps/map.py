@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -10,29 +9,27 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import _native
 from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import Complexes, Integers, Progress, Reals
-from ..core.progress import scaled
 from ..core.value import Value
 from ..cutting.island_layout import Islands
 from ..forms.pole_structure import PoleStructure
-from ..mesh.checks import checked_evenness
+from ..mesh.checks import check_type, checked_coefficients, checked_evenness
 from ..mesh.folds import folds
 from ..mesh.surface import Surface
 from ..quality.appearance import CONE, HARD_SEAM, POLE, SEAM, cost
-from ..quality.direction import uphill
 from ..quality.distortion import WorstPlace, drawn_densities, worst_places
 from ..quality.quality import Quality
 from ..quality.verdicts import Seen, Verdict, verdict
 from ..tiles.tiled_surface import TiledSurface
-from ..tiling.tilings import UP, Tiling
+from ..tiling.tilings import Tiling, vertices_of
 from .automatic_structure import AnyStructure
-from .evened_forms import evened_uv
 from .mixed import Mixed
 
-SCATTERED = 300.0  # times the root of its own area that a map is wide: single precision has no room for others then
-SLIGHT = 1e-6  # part of all slopes that may be rounding
+# Times the root of its own area that a map is wide: single precision has no room for others then.
+SCATTERED = _native.scattered
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -66,6 +63,28 @@ class Map(Value):
         """The map that is a tiling, of `structure.tile`."""
         why = f"it has no visible seams: size range {tiling.quality.size_range:.3g}"
         return cls(surface, structure, tiling.uv, tiling.quality, np.empty(0), why, tiling)
+
+    @classmethod
+    def of_core(cls, made: _native.Map, surface: Surface, structure: AnyStructure) -> Map:
+        """The one that the core made of a connected surface, with its structure for Python."""
+        if made.tiling:
+            tiling = Tiling.of_core(made.tiling, surface)
+            return cls(surface, structure, tiling.uv, tiling.quality, np.empty(0), made.why, tiling)
+        if made.islands:
+            flat = Islands.of(made.islands, surface)
+            flat = replace(flat, seams=vertices_of(surface, flat.seams))
+            return cls(surface, structure, flat.uv, flat.quality, np.empty(0), made.why, islands=flat)
+        uv = made.uv
+        if made.mixed:
+            quality = Quality._of(made.quality, None, surface.up)
+            mixed = Mixed.of_core(made.mixed, uv, quality, surface)
+            return cls(surface, structure, uv, quality, np.empty(0), made.why, mixed=mixed)
+        coefficients = made.forms.coefficients.ravel()
+        if structure.coefficient_type is np.float64:
+            coefficients = coefficients.real.copy()
+        quality = Quality._of(made.quality, structure._triangulation, surface.up)
+        evenness = made.forms.evenness
+        return cls(surface, structure, uv, quality, arrays.frozen(coefficients), made.why, _evenness=evenness)
 
     @property
     def kind(self) -> str:
@@ -266,39 +285,9 @@ def form_map(
     forms
     """
     evenness = checked_evenness(evenness)
-    structure.prepare_uv(scaled(progress, 0.0, 0.2))
-    if coefficients is None:
-        coefficients = structure.balanced_coefficients(scaled(progress, 0.2, 0.6))
-    uv = structure.uv(coefficients)
-    turn = _turn_upright(surface, structure, uv) if upright else 1.0
-    if turn != 1:
-        coefficients = coefficients * turn
-        uv = structure.uv(coefficients)
-    quality = structure.quality(uv)
-    if evenness > 0:
-        uv = evened_uv(structure, coefficients, uv, quality, evenness, scaled(progress, 0.6, 1.0))
-        quality = structure.quality(uv).evened_from(quality, evenness)
-    if upright:
-        uv = arrays.frozen(_turned(uv, turn)) if structure.form_count == 0 else uv
-        quality = quality.upright(uv, surface.up)
-    return Map(surface, structure, uv, quality, coefficients, why, _evenness=evenness)
-
-
-def _turn_upright(surface, structure, uv):
-    """The number of length 1 by which coefficients are multiplied for that, or UVs where there are none."""
-    if surface.vertices is None:
-        return 1.0
-    slopes = uphill(structure._triangulation, uv, np.array(UP[surface.up]))
-    length = np.abs(slopes)
-    # Rows are level after a half turn, too; on a closed surface the slopes cancel, their squares do not.
-    level = -(slopes[length > 0] ** 2 / length[length > 0]).sum()
-    if not abs(level) > SLIGHT * length.sum():
-        return 1.0
-    turn = 1.0 if structure.coefficient_type is np.float64 else np.sqrt(np.conj(level) / abs(level))
-    turn = -turn if (slopes.sum() * turn).imag < -SLIGHT * length.sum() else turn
-    return turn if structure.map_kind != "rectangle" else 1j ** round(cmath.phase(turn) / (math.pi / 2))
-
-
-def _turned(uv, turn):
-    z = (uv @ [1, 1j]) * turn
-    return np.stack([z.real, z.imag], axis=1)
+    check_type(why, str, "why")
+    if coefficients is not None:
+        coefficients = checked_coefficients(coefficients, structure.form_count, structure.coefficient_type)
+    asked = {"coefficients": coefficients, "evenness": evenness, "is_upright": upright, "why": why}
+    made = _native.form_map(structure._core, **asked, threads=structure._threads, progress=progress)
+    return Map.of_core(made, surface, structure)

@@ -6,12 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .. import _native
 from ..core import arrays
 from ..core.array_types import Integers, Reals
 from ..core.value import Value, counted
+from ..mesh.surface import Surface
 from ..quality.appearance import cost
 from ..quality.quality import Quality
-from ..tiling.tilings import Tiling
+from ..tiling.tilings import Tiling, vertices_of
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -34,6 +36,14 @@ class Mixed(Value):
     evenness: float
     soft_length: float
     hard_length: float
+
+    @classmethod
+    def of_core(cls, made: _native.Mixed, uv: Reals, quality: Quality, surface: Surface) -> Mixed:
+        """The one that the core made of a connected surface."""
+        tilings = tuple(Tiling.of_core(each, surface) for each in made.tilings)
+        return cls(
+            uv, tilings, vertices_of(surface, made.seams), quality, made.evenness, made.soft_length, made.hard_length
+        )
 
     @property
     def cost(self) -> float:

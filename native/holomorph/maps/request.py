@@ -10,13 +10,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import _native
 from ..core.array_types import Complexes, Reals
 from ..core.arrays import integer
+from ..core.value import quoted
+from ..mesh.checks import checked_evenness
 from ..mesh.origin import edges_on_part, on_part
 from ..mesh.surface import Surface
-from ..tiling.tiling import Poles
+from ..tiling.options import part_of, tile_options
+from ..tiling.tilings import Poles
+from ..tiling.turned import AUTOMATIC
 from .automatic_structure import AnyStructure
 from .chosen_structures import PartStructure
+from .late_structure import LateStructure
 
 MAIN_MAPS = ("automatic", "seamless", "untiled", "balanced")
 EVENNESS = 0.5  # what suits textures: squares hardly differ in size, and their shear is not seen
@@ -50,16 +56,31 @@ class Request:
         return isinstance(self.direction, str)
 
     @property
-    def tiling(self) -> dict[str, Any]:
-        """All options of `Structure.tile` but poles."""
-        return {"direction": self.direction, "evenness": self.evenness, **self.options}
-
-    @property
     def key(self) -> tuple[Any, ...]:
         """Equal where the same is asked of two parts. A structure that is given may be of choices on that part."""
         given = id(self.structure) if self.main == "balanced" and self.structure is not None else None
         asked = self.main, self.poles, self.evenness, self.direction, self.coefficients, self.options, self.effort
         return given, *_plain(asked)
+
+    def of_core(self) -> _native.Request:
+        """The core's own value. Raises ValueError for an option that no tiling has."""
+        if self.main not in MAIN_MAPS:
+            raise ValueError(f"main is {quoted(self.main)}; one of {', '.join(MAIN_MAPS)} is needed")
+        structure = self.structure and not isinstance(self.structure, LateStructure)
+        core = self.structure._core if structure else None
+        part = self.structure._part if structure else part_of(self.surface)
+        lines = self.options.get("lines", AUTOMATIC)
+        coefficients = self.coefficients
+        return _native.Request(
+            part,
+            core,
+            main=self.main,
+            evenness=checked_evenness(self.evenness),
+            coefficients=None if coefficients is None else np.asarray(coefficients, complex),
+            tiling=tile_options(self.surface, self.poles, direction=self.direction, **self.options),
+            lines=lines,
+            effort=self.effort,
+        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from typing import TypeAlias
 
+from .. import _native
 from ..core.value import quoted
 from ..mesh.checks import real_number
 from ..mesh.surface import Surface
-from .map import Map
+from ..tiling.options import part_of
 
-LEAST_TILES, TILES_PER_HANDLE = 100, 64  # over the largest part, by default
-LIKE_SIZE = 1.095  # largest over smallest median density of tilings, for parts whose squares have one size
-TRIES = 4  # numbers of tiles, until the median density is the wanted one
 TOLERANCE = 0.2  # of a density that is given, a tenth of lengths: less is seen of that than of a seam
 
 Window: TypeAlias = tuple[float, float]  # least and largest median density, over the wanted one
@@ -33,10 +30,10 @@ class SizePolicy:
     """
 
     density: float
-    tries: int = TRIES
-    tolerance: float | None = None
-    window: Window | None = None
-    near: float = TOLERANCE
+    tries: int
+    tolerance: float | None
+    window: Window | None
+    near: float
 
     @classmethod
     def of(
@@ -46,62 +43,24 @@ class SizePolicy:
         density: float | None = None,
         tolerance: float = TOLERANCE,
     ) -> SizePolicy:
-        """By a number of tiles over all parts, or per unit of area; `usual_density` without either. Raises ValueError
-        for both, and for wrong numbers."""
+        """By a number of tiles over all parts, or per unit of area; without either 100 tiles, or 64 for each handle,
+        over the largest part. Raises ValueError for both, and for wrong numbers."""
         if tiles is not None and density is not None:
             raise ValueError("give tiles or a density, not both")
         if real_number(tolerance, "density_tolerance") < 0:
             raise ValueError(f"density_tolerance is {quoted(tolerance)}; it cannot be negative")
         if density is not None:
             wanted = real_number(density, "density", positive=True)
-            return cls(wanted, tolerance=tolerance, near=min(tolerance, TOLERANCE))
+            return cls.of_core(_native.SizePolicy.of_density(wanted, tolerance))
         tiles = tiles and real_number(tiles, "tiles", positive=True)
-        area = sum(part.area for part in parts) if tiles else 0.0
-        wanted = tiles / area if area > 0 else usual_density(parts)
-        return cls(wanted, 1 if tiles is None else TRIES)
+        return cls.of_core(_native.SizePolicy.of_tiles([part_of(part) for part in parts], tiles or 0.0))
 
-    def takes(self, size: float) -> bool:
-        """Whether the leading part may have this median density, over the wanted one."""
-        return self.tolerance is None or abs(size - 1) <= self.tolerance
+    @classmethod
+    def of_core(cls, size: _native.SizePolicy) -> SizePolicy:
+        """That of the core."""
+        return cls(size.density, size.tries, size.tolerance, size.window, size.near)
 
-
-def usual_density(parts: Sequence[Surface]) -> float:
-    """Tiles per unit of area by default: 100, or 64 for each handle, over the largest part. 0 where none has area."""
-    largest = max(parts, key=lambda part: part.area, default=None)
-    if largest is None or not largest.area > 0:
-        return 0.0
-    return max(LEAST_TILES, TILES_PER_HANDLE * largest.genus) / largest.area
-
-
-def relative_size(made: Map, density: float) -> float:
-    """The median density over the wanted one."""
-    return made.density / density if density > 0 else 1.0
-
-
-def is_in(window: Window, size: float) -> bool:
-    """Whether a median density, over the wanted one, is in a window."""
-    return window[0] <= size <= window[1]
-
-
-def window_around(low: float = LIKE_SIZE**-0.5) -> Window:
-    """The window from `low` on; by default the one in whose middle the wanted density is."""
-    return low, low * LIKE_SIZE
-
-
-def best_window(sizes: Sequence[Sequence[float]], weights: Sequence[float]) -> Window:
-    """The window with the wanted density, 1, that holds one of the `sizes` of most parts by their weights; of equal
-    ones the one whose middle is nearest to it."""
-    tried = [window_around()]
-    tried += [window_around(size) for each in sizes for size in each if 1 / LIKE_SIZE <= size <= 1]
-    tried += [window_around(size / LIKE_SIZE) for each in sizes for size in each if 1 <= size <= LIKE_SIZE]
-
-    def held(window):
-        weight = sum(w for each, w in zip(sizes, weights) if any(is_in(window, size) for size in each))
-        return weight, -abs(math.log(window[0] * window[1]))
-
-    return max(tried, key=held)
-
-
-def nearest(tilings: Sequence[Map], density: float) -> Map:
-    """The map whose median density is nearest to the wanted one."""
-    return min(tilings, key=lambda made: abs(relative_size(made, density) - 1))
+    @property
+    def core(self) -> _native.SizePolicy:
+        """The core's own value."""
+        return _native.SizePolicy(*astuple(self))

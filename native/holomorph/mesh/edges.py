@@ -53,21 +53,6 @@ def boundary_edges(surface):
     return surface.corner_vertices[boundary_corners(surface)]
 
 
-def has_angle_on_one_boundary(surface):
-    """Whether a polygon has three corners in a row on one boundary loop. Each loop is named by its least vertex, found
-    by pointer doubling, O(#V log #B)."""
-    start, end = boundary_edges(surface).astype(np.int64).T
-    if not len(start):
-        return False
-    least, following = np.full(surface._native.vertex_count, -1), np.arange(surface._native.vertex_count)
-    least[start], following[start] = start, end
-    for _ in range(len(start).bit_length()):
-        least[start] = np.minimum(least[start], least[following[start]])
-        following[start] = following[following[start]]
-    loops, after = least[surface.corner_vertices], following_corners(surface)
-    return bool(((loops >= 0) & (loops == loops[after]) & (loops == loops[after[after]])).any())
-
-
 def around_boundary(surface, vertices):
     """The vertices, (n,) integers, in the order in which the boundary loop of the first passes them, surface on the
     left; as they are where they do not lie on one loop.

@@ -10,16 +10,15 @@ import numpy as np
 from .. import _native
 from .._native import TopologyError
 from ..core.array_types import Integers, Progress
-from ..forms.log_map import log_map
 from ..forms.narrow_bounds import narrow
 from ..forms.pole_structure import PoleStructure
 from ..forms.results import result
+from ..forms.truncated import pole_structure_of
 from ..mesh.checks import check_bounds, check_options, only_component, own_vertices
 from ..mesh.double import glued_copies
 from ..mesh.surface import Surface
+from ..tiling.options import part_of
 from .plane_maps import DiskMap, FreeBoundaryMap, PlaneMap, RectangleMap, TriangleMap
-
-UNEVEN = 10.0  # size range of a disk map, above which others are tried
 
 
 def disk_map(
@@ -171,52 +170,31 @@ def _disk(surface, what):
     raise TopologyError(f"the surface has {component._topology.text()}; {what} needs a disk")
 
 
-def default_disk_map(surface, **options) -> PlaneMap | PoleStructure:
+KINDS = {"disk": DiskMap, "rectangle": RectangleMap, "triangle": TriangleMap, "flat": FreeBoundaryMap}
+
+
+def default_disk_map(surface, *, solver, threads, progress) -> PlaneMap | PoleStructure:
     """The map of a disk for which nothing was chosen.
 
     Where its boundary has four clear corners, rough, round or wavy as they may be, the rectangle with these. Else the
     map to the unit disk centred at the vertex farthest from the boundary along the edges. Where its size range is
-    above `UNEVEN`, as on a glove or a long tube, the most even one of it, the log map with the same pole and the
+    above 10, as on a glove or a long tube, the most even one of it, the log map with the same pole and the
     rectangle with corners at the quarters of the boundary. Where every vertex is next to the boundary, that rectangle,
     or the map with a free boundary where the rectangle collapses triangles and it flips none; with three boundary edges
     a triangle.
-
-    options : solver, threads, progress
     """
-    component = only_component(surface)
-    if _native.clear_corners(component._native) is not None:
-        return rectangle_map(surface, **options)
-    has_four_sides = _native.boundary_length(component._native) > 3
-    try:
-        round_map = disk_map(surface, **options)
-    except TopologyError:
-        return _without_inner_vertices(surface, options) if has_four_sides else triangle_map(surface, **options)
-    if _size_range(round_map) <= UNEVEN:
-        return round_map
-    maps = [round_map, _log_map(round_map, options)]
-    if has_four_sides:
-        maps.append(rectangle_map(surface, **options))
-    return min(maps, key=_size_range)
+    component, count = only_component(surface), check_options(solver, threads)
+    options = {"solver": solver, "threads": count, "memory_limit": 0, "progress": progress}
+    made = disk_structure_of(
+        _native.automatic_structure(part_of(surface, component), **options), surface, component, count
+    )
+    return made.computed_by(partial(default_disk_map, surface, solver=solver, threads=threads, progress=None))
 
 
-def _log_map(round_map, options):
-    """The log map from the solve for a `DiskMap`."""
-    surface, component, threads = round_map.surface, round_map._component, round_map._threads
-    made = result(PoleStructure, surface, component, round_map._native, threads)
-    again = {name: value for name, value in options.items() if name != "progress"}
-    return made.computed_by(partial(log_map, surface, [round_map.centre], **again))
-
-
-def _without_inner_vertices(surface, options):
-    """The map of a disk without inner vertices: a rectangle that collapses no triangle, or else the map with a free
-    boundary.
-    """
-    straight = rectangle_map(surface, **options)
-    if not len(straight.collapsed_triangles):
-        return straight
-    free = free_boundary_map(surface, **options)
-    return straight if free.quality(free.uv()).flipped.any() else free
-
-
-def _size_range(structure):
-    return structure.quality(structure.uv(structure.balanced_coefficients())).size_range
+def disk_structure_of(core, surface, component, threads):
+    """The `PlaneMap`, or log map, that the core made."""
+    if core.kind == "log":
+        return pole_structure_of(core, surface, component, threads)
+    made = result(KINDS[core.kind], surface, component, core.plane_map or core.solved, threads)
+    vars(made)["_core"] = core
+    return made

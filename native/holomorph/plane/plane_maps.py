@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import _native
 from ..core import arrays
 from ..core.array_types import Complexes, Integers, Progress, Reals
 from ..core.value import plain
@@ -27,6 +28,10 @@ class PlaneMap(Structure):
 
     coefficient_type = np.complex128
     form_count = 0
+
+    @cached_property
+    def _core(self):
+        return _native.plane_structure(self.map_kind, self._part, self._native, getattr(self, "modulus", 0.0))
 
     @cached_property
     def seams(self) -> Integers:
@@ -63,6 +68,7 @@ class DiskMap(PlaneMap):
     residue 1 at the centre. z is 0 there and |z| = 1 on the boundary; a rotation is free."""
 
     map_kind = "disk"
+    _core = Structure._core
 
     @cached_property
     def description(self) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -10,7 +9,7 @@ import numpy as np
 
 from .. import _native
 from ..core import arrays
-from ..core.array_types import Complexes, Reals
+from ..core.array_types import Reals
 from ..core.value import Value, percent
 
 UPRIGHT, SIDEWAYS, UPSIDE_DOWN = 15.0, 20.0, 160.0  # degrees: from up at most, from a right angle at most, at least
@@ -63,12 +62,10 @@ class Direction(Value):
         angle = np.abs(self.angle - period * np.round(self.angle / period))
         return replace(self, angle=arrays.frozen(angle), turns=turns)
 
-    @classmethod
-    def joined(cls, parts: Sequence[Direction]) -> Direction:
-        """That of several maps together, the triangles of one after those of the other."""
-        angle, steep = (np.concatenate([getattr(each, name) for each in parts]) for name in ("angle", "steep"))
-        area = sum(each.area for each in parts)
-        return cls(arrays.frozen(angle), arrays.frozen(steep), area, parts[0].up, parts[0].turns)
+    @property
+    def of_core(self) -> _native.Direction:
+        """The core's own value."""
+        return _native.Direction(self.angle, self.steep, self.area, self.turns)
 
     def of_copy(self, scale: float) -> Direction:
         """That of the same map on a copy of the surface, whose lengths are multiplied by `scale`."""
@@ -117,11 +114,3 @@ class Direction(Value):
     def _facts(self):
         parts = {"upright": self.upright_part, "sideways": self.sideways_part, "upside down": self.upside_down_part}
         return [f"{percent(part)} {name}" for name, part in parts.items()]
-
-
-def uphill(triangulation: object, uv: Reals, axis: Sequence[float]) -> Complexes:
-    """(#T,) gradients in the plane u + i v of the coordinate along an axis in space, times the area of the triangle in
-    the plane, negative where that is flipped."""
-    corners = (uv @ [1, 1j])[triangulation.triangle_corners]
-    across = 0.5j * (np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1))
-    return (across * (triangulation.vertices[triangulation.triangles] @ axis)).sum(axis=1)

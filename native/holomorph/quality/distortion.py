@@ -6,7 +6,6 @@ triangles of surfaces.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import NamedTuple, Protocol
 
@@ -17,8 +16,6 @@ from ..core.array_types import Integers, Reals
 
 MOST_OCTAVES = _native.most_octaves  # a density beyond is one of a collapsed polygon
 COLLAPSED = _native.collapsed_angle  # s1 / s2 of a collapsed polygon
-MOST_ANGLE = 10.0  # what s1 / s2 counts at most in its mean, so that no single triangle decides it; as in uv/quality.h
-LOW, HIGH = 0.05, 0.95  # quantiles of the density whose ratio is reported
 
 
 class Polygons(Protocol):
@@ -41,7 +38,7 @@ class Distortion:
     density: Reals  # (#F,) log2 of UV area per surface area (s1 s2) over its median by area
     angle: Reals  # (#F,) s1 / s2
     size_range: float  # of the sides of squares: root of the 95 % over 5 % quantile of the density, by area
-    mean_angle: float  # by area, each polygon with `MOST_ANGLE` at most
+    mean_angle: float  # by area, each polygon with 10 at most
     direction: Reals  # (#F,) degrees between the gradient of v and what is up, see `Direction`
     upright_part: float  # of the steep area
 
@@ -111,12 +108,3 @@ def drawn_densities(mesh: Polygons, uv: Reals) -> tuple[float, float, float]:
 def length_ratio(mesh: Polygons, uv: Reals) -> float:
     """UV length for a length on the surface, where the density is the median one; 0 where there is no area."""
     return drawn_densities(mesh, uv)[1] ** 0.5
-
-
-def quantiles(values: Reals, weights: Reals, shares: Sequence[float]) -> list[float]:
-    """The values below which these shares of the weights lie; 0 where nothing has weight."""
-    order = np.argsort(values, kind="stable")
-    total = np.cumsum(weights[order])
-    if not len(total) or total[-1] <= 0:
-        return [0.0] * len(shares)
-    return [values[order[np.searchsorted(total, share * total[-1])]] for share in shares]

@@ -15,8 +15,7 @@ from ..core import arrays
 from ..core.array_types import Flags, Reals
 from ..core.value import Value
 from .direction import Direction
-from .distortion import HIGH, LOW, MOST_ANGLE, quantiles
-from .verdicts import UNSEEN, Verdict, verdict
+from .verdicts import Verdict, verdict
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -57,7 +56,7 @@ class Quality(Value):
     @classmethod
     def _of(cls, found, triangulation, up="Z"):
         direction = found.direction and Direction.of_native(found.direction, up)
-        values = {field.name: getattr(found, field.name) for field in fields(cls) if not field.name.startswith("_")}
+        values = {name: getattr(found, name) for name in cls._names()}
         return cls(**values | {"direction": direction}, _triangulation=triangulation)
 
     @classmethod
@@ -67,35 +66,25 @@ class Quality(Value):
 
         densities : (n,); maps without area keep theirs
         """
-        scaled = [each.of_density(density) for each, density in zip(qualities, densities)]
-        if len(scaled) == 1:
-            return scaled[0]
-        parts = [(each.angle, each.area, each.flipped, each.weights) for each in scaled]
-        angle, density, flipped, weights = map(np.concatenate, zip(*parts))
-        low, median, high = quantiles(density, weights, (LOW, 0.5, HIGH))
-        mean = float(np.average(np.minimum(angle, MOST_ANGLE), weights=weights))
-        shares = [each.weights.sum() for each in qualities]
-        flipped_part, lost, unseen, overlapping = (
-            float(np.average([getattr(each, name) or 0.0 for each in qualities], weights=shares))
-            for name in ("flipped_part", "lost_part", "unseen_angle", "overlapping_part")
-        )
-        figures = mean, float(high / low) if low > 0 else np.inf, float(median), flipped_part, lost
-        is_island = any(each.overlapping_part is not None for each in qualities)
-        of_triangles = map(arrays.frozen, (angle, density, flipped, weights))
-        directions = [each.direction for each in qualities if each.direction]
-        direction = Direction.joined(directions) if directions else None
-        return cls(*of_triangles, *figures, None, overlapping if is_island else None, unseen, direction)
+        if len(qualities) == 1:
+            return qualities[0].of_density(densities[0])
+        up = next((each.direction.up for each in qualities if each.direction), "Z")
+        return cls._of(_native.joined([each._of_core for each in qualities], densities), None, up)
+
+    @property
+    def _of_core(self):
+        values = {name: getattr(self, name) for name in self._names()}
+        return _native.Quality(**values | {"direction": self.direction and self.direction.of_core})
+
+    @classmethod
+    def _names(cls):
+        return [field.name for field in fields(cls) if not field.name.startswith("_")]
 
     def upright(self, uv: Reals, up: str, turns: int = 1) -> Quality:
         """The same with the `Direction` of these UVs, where the surface has positions."""
         if self._triangulation.intrinsic:
             return self
         return replace(self, direction=Direction.of(self._triangulation, uv, up, turns))
-
-    def evened_from(self, before: Quality, evenness: float) -> Quality:
-        """The same for a map that evening made of one with the quality `before`."""
-        added = self.mean_angle - before.mean_angle
-        return replace(self, unseen_angle=min(max(added, 0.0), UNSEEN * evenness))
 
     def of_copy(self, scale: float) -> Quality:
         """The `Quality` of the same map on a copy of the surface, whose lengths are multiplied by `scale`."""
@@ -125,16 +114,6 @@ class Quality(Value):
     def size_range(self) -> float:
         """How many times as long as the 5 % smallest squares the 5 % largest are at least."""
         return math.sqrt(self.density_ratio)
-
-    @cached_property
-    def density_spread(self) -> float:
-        """Mean distance of the logarithm of `area` from that of the median, by area; collapsed triangles do not
-        count."""
-        has_size = self.area > 0
-        if not has_size.any() or not self.median_density > 0:
-            return 0.0
-        octaves = np.abs(np.log(self.area[has_size] / self.median_density))
-        return float(np.average(octaves, weights=self.weights[has_size]))
 
     @cached_property
     def verdict(self) -> Verdict:

@@ -6,29 +6,15 @@ import math
 import weakref
 from collections.abc import Mapping
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _native
-from .._native import TopologyError
-from ..core import arrays
 from ..core.array_types import Progress
-from ..core.value import counted, quoted
-from ..mesh.checks import SOLVERS, check_name, check_threads, checked_evenness, only_component, real_number
+from ..core.value import counted
+from ..mesh.checks import SOLVERS, check_name, check_threads, checked_evenness, only_component
 from ..mesh.surface import Surface
-from ..quality.quality import Quality
-from .tilings import (
-    PlacedPoles,
-    Poles,
-    Rounding,
-    Tiling,
-    along,
-    asked_poles,
-    generators,
-    is_straight,
-    own_allowed,
-    own_poles,
-)
+from .options import part_of, tile_options
+from .tilings import PlacedPoles, Poles, Tiling, vertices_of
 
 
 class Tiler:
@@ -61,23 +47,22 @@ class Tiler:
         threads: int | None = 0,
         progress: Progress | None = None,
     ) -> None:
-        self._surface, self._component, self._threads = surface, only_component(surface), check_threads(threads or None)
         check_name(solver, SOLVERS, "solver")
-        count, chosen = asked_poles(poles)
-        vertices, labels = own_poles(surface, self._component, chosen)
-        self._placement = _native.place_poles(
-            self._component._native,
-            count=count,
-            vertices=vertices,
-            allowed=own_allowed(allowed, surface, self._component),
-            straight=is_straight(boundary, self._component, evened),
-            labels=labels,
-            evened=evened,
-            solver=solver,
-            like=like and like._placement,
-            threads=self._threads,
-            progress=progress,
-        )
+        component, threads = only_component(surface), check_threads(threads or None)
+        asked = tile_options(surface, poles, boundary=boundary, allowed=allowed)
+        options = {"evened": evened, "solver": solver, "like": like and like._core}
+        core = _native.Tiler(part_of(surface, component), asked, **options, threads=threads, progress=progress)
+        self._adopt(surface, core, threads)
+
+    @classmethod
+    def of_core(cls, surface: Surface, core: _native.Tiler, threads: int) -> Tiler:
+        """The one of the core."""
+        tiler = cls.__new__(cls)
+        tiler._adopt(surface, core, threads)
+        return tiler
+
+    def _adopt(self, surface, core, threads):
+        self._surface, self._core, self._threads = surface, core, threads
         self._made = weakref.WeakKeyDictionary()  # in the core, by the `Tiling` that stands for it
 
     def __repr__(self) -> str:
@@ -89,9 +74,8 @@ class Tiler:
     @property
     def poles(self) -> PlacedPoles:
         """`PlacedPoles`."""
-        placement = self._placement
-        vertices, size_range = self._of_surface(placement.poles()), math.sqrt(placement.density_ratio)
-        return PlacedPoles(vertices, placement.residues(), size_range)
+        vertices = vertices_of(self._surface, self._core.poles())
+        return PlacedPoles(vertices, self._core.residues(), math.sqrt(self._core.density_ratio()))
 
     def tile(
         self,
@@ -107,39 +91,15 @@ class Tiler:
         progress: Progress | None = None,
     ) -> Tiling:
         """A `Tiling`; see `Structure.tile`. turn : radians by which the texture is rotated, beside the direction."""
-        if max_added is not None and real_number(max_added, "max_added") < 1:
-            raise ValueError(f"max_added is {quoted(max_added)}; an angle distortion of at least 1 is needed")
-        tiles = 0.0 if tiles is None else real_number(tiles, "tiles", positive=True)
-        turn = None if turn is None else real_number(turn, "turn")
-        max_turn = real_number(max_turn, "max_turn")
-        vector, turn = along(direction, turn, self._component)
-        evenness = checked_evenness(evenness)
-        made = self._tiling(
-            _native.tile(
-                self._placement,
-                tiles=tiles,
-                lattice=generators(lattice),
-                turn=turn,
-                direction=vector,
-                max_turn=max_turn,
-                evenness=evenness,
-                size_counts=size_counts,
-                threads=self._threads,
-                progress=progress,
-            ),
-            evenness,
-            isinstance(direction, str),
-        )
-        if max_added is not None and made.added_distortion > max_added:
-            raise TopologyError(_too_sheared(made, max_added, self._surface.genus))
-        return made
+        rounded = {"lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn}
+        rounded |= {"max_added": max_added, "size_counts": size_counts}
+        asked = tile_options(self._surface, "auto", tiles, evenness=evenness, **rounded)
+        return self._tiling(self._core.tile(asked, threads=self._threads, progress=progress))
 
     def even(self, tiling: Tiling, evenness: float, *, progress: Progress | None = None) -> Tiling:
         """A tiling of this `Tiler` with another evenness. Nothing is placed or rounded again: quick."""
-        made = self._own(tiling)
-        evenness = checked_evenness(evenness)
-        evened = _native.evened_tiling(made, evenness=evenness, threads=self._threads, progress=progress)
-        return self._tiling(evened, evenness, tiling.quality.direction is not None)
+        made, evenness = self._own(tiling), checked_evenness(evenness)
+        return self._tiling(self._core.evened(made, evenness, threads=self._threads, progress=progress))
 
     def move_poles(
         self,
@@ -159,53 +119,18 @@ class Tiler:
         evenness : default that of the tiling
         """
         made = self._own(tiling)
-        evenness = tiling.evenness if evenness is None else checked_evenness(evenness)
-        if not isinstance(moves, Mapping):
-            raise ValueError(f"moves is {quoted(moves)}; a dictionary from poles to vertices is needed")
-        own, _ = own_poles(self._surface, self._component, list(moves.values()))
-        moved = _native.move_poles(
-            self._placement,
-            made,
-            list(zip(moves, own)),
-            evenness=evenness,
-            threads=self._threads,
-            progress=progress,
-        )
-        return self._tiling(moved, evenness, tiling.quality.direction is not None)
+        asked = tile_options(self._surface, evenness=tiling.evenness if evenness is None else evenness, moves=moves)
+        return self._tiling(self._core.moved(made, asked, threads=self._threads, progress=progress))
 
     def _own(self, tiling):
         if tiling not in self._made:
             raise ValueError("this Tiler did not make the tiling")
         return self._made[tiling]
 
-    def _tiling(self, made, evenness, is_upright):
-        uv, triangulation, zeros = made.uv(), made.surface(), made.zeros()
-        up = self._component.up if is_upright and not triangulation.intrinsic else None
-        found = _native.quality_of_tiling(made, up=up, threads=self._threads)
-        basis, jumps = (np.array([z.real, z.imag]) for z in (made.lattice(), made.periods().ravel()))
-        periods = np.linalg.solve(basis, jumps)
-        tiling = Tiling(
-            uv=uv,
-            periods=arrays.frozen(np.rint(periods.T).astype(np.int64).reshape(-1, 2)),
-            poles=self._of_surface(made.poles()),
-            residues=made.residues(),
-            zeros=(self._of_surface(zeros.vertices), zeros.orders),
-            evenness=evenness,
-            added_distortion=made.distortion(),
-            beltrami_rms=made.beltrami_rms(),
-            optimal_size_range=self.poles.size_range,
-            rounding=Rounding(*made.rounding()),
-            tiles=made.tiles(),
-            quality=Quality._of(found, triangulation, self._component.up),
-            seams=self._of_surface(triangulation.edges[made.seams()]),
-            lattice=arrays.frozen(basis.copy()),
-        )
+    def _tiling(self, made):
+        tiling = Tiling.of_core(made, self._surface)
         self._made[tiling] = made
         return tiling
-
-    def _of_surface(self, vertices):
-        same = self._component is self._surface
-        return vertices if same else arrays.frozen(self._component.vertex_index[vertices])
 
 
 def place_poles(
@@ -232,13 +157,3 @@ def place_poles(
     4
     """
     return Tiler(surface, count, allowed=allowed, progress=progress).poles
-
-
-def _too_sheared(made, max_added, genus):
-    """The sentence of the refusal, with what can be had instead."""
-    poles = counted(len(made.poles), "pole")
-    advice = "take more tiles" if len(made.poles) >= genus else f"take {genus} poles or more, or more tiles"
-    return (
-        f"with {poles} and {made.tiles:.4g} tiles the added distortion is {made.added_distortion:.5g}, more than "
-        f"max_added, {max_added:.5g}: {advice}"
-    )

@@ -10,12 +10,13 @@ from typing import TypeAlias
 
 import numpy as np
 
-from .._native import InvalidMesh, TopologyError
+from .. import _native
+from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import Complexes, Integers, Reals
 from ..core.value import Value, counted, quoted
 from ..mesh.checks import own_vertices
-from ..mesh.edges import has_angle_on_one_boundary
+from ..mesh.surface import Surface
 from ..quality.appearance import CONE, POLE
 from ..quality.quality import Quality
 from ..quality.verdicts import Seen, Verdict, special, verdict
@@ -98,6 +99,32 @@ class Tiling(Value):
     jumps: Integers = field(default_factory=lambda: np.empty((0, 3), np.int64))
     lines: str = "none"
 
+    @classmethod
+    def of_core(cls, made: _native.SeamlessMap, surface: Surface) -> Tiling:
+        """The one that the core made of a connected surface."""
+        zeros = made.zeros
+        return cls(
+            uv=made.uv,
+            periods=made.periods,
+            poles=vertices_of(surface, made.poles),
+            residues=made.residues,
+            zeros=(vertices_of(surface, zeros.vertices), zeros.orders),
+            evenness=made.evenness,
+            added_distortion=made.added_distortion,
+            beltrami_rms=made.beltrami_rms,
+            optimal_size_range=made.optimal_size_range,
+            rounding=Rounding(*made.rounding),
+            tiles=made.tiles,
+            quality=Quality._of(made.quality, made.triangulation, surface.up),
+            seams=vertices_of(surface, made.seams),
+            lattice=arrays.frozen(np.array([[z.real, z.imag] for z in made.lattice]).T.copy()),
+            turns=made.turns,
+            cones=vertices_of(surface, made.cones),
+            cone_angles=made.cone_angles,
+            jumps=made.jumps,
+            lines=made.lines,
+        )
+
     def _facts(self):
         size = f"{self.tiles:.4g} tiles, {special(len(self.poles), self.turns, len(self.cones), self.lines)}"
         return [size, f"size range {self.size_range:.4g}", f"angle distortion {self.quality.mean_angle:.4g}"]
@@ -129,6 +156,12 @@ class PlacedPoles(Value):
 
     def _facts(self):
         return [counted(len(self.vertices), "pole"), f"size range {self.size_range:.4g}"]
+
+
+def vertices_of(surface, own):
+    """Vertices of the one component of a surface as those of the surface, which may have isolated ones besides."""
+    component = surface.components[0]
+    return own if component is surface else arrays.frozen(component.vertex_index[own])
 
 
 def asked_poles(poles):
@@ -168,15 +201,6 @@ def own_allowed(allowed, surface, component):
     return own.tolist()
 
 
-def is_straight(boundary, component, evened):
-    """Whether the boundary of a tiling is to be straight. @throws ValueError"""
-    if boundary not in BOUNDARIES:
-        raise ValueError(f"boundary is {quoted(boundary)}; one of {', '.join(BOUNDARIES)} is needed")
-    if boundary == "automatic":
-        return not (evened and has_angle_on_one_boundary(component))
-    return boundary == "straight"
-
-
 def generators(lattice):
     """The two generators of a lattice as complex numbers. @throws ValueError"""
     if isinstance(lattice, str):
@@ -191,25 +215,15 @@ def generators(lattice):
     return complex(*matrix[:, 0]), complex(*matrix[:, 1])
 
 
-def along(direction, turn, surface):
-    """(vector or None, turn or None) of a tiling of `surface`: u is to run along the vector and be rotated by `turn`.
-
-    direction : None, (3,) numbers, or "upright": u then runs along what is up (`Surface.up`) and is turned by a
-        quarter, so that v runs up as far as it can. A surface without positions is not turned: it knows no direction
-    turn : radians, or None
-
-    Raises ValueError for another direction; InvalidMesh for a vector on a surface without positions."""
+def heading(direction):
+    """(whether rows run level, (3,) vector that u runs along, or None). @throws ValueError for another direction"""
     if isinstance(direction, str):
         if direction != UPRIGHT:
             raise ValueError(f'direction is {quoted(direction)}; "{UPRIGHT}", three numbers or None is needed')
-        return (list(UP[surface.up]), math.pi / 2 + (turn or 0.0)) if surface.vertices is not None else (None, turn)
-    return (None if direction is None else _vector(direction, surface)), turn
-
-
-def _vector(direction, surface):
-    if surface.vertices is None:
-        raise InvalidMesh("an intrinsic surface, without positions, has no direction in space; use turn")
+        return True, None
+    if direction is None:
+        return False, None
     vector = arrays.numbers(direction, "direction")
     if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
         raise ValueError(f"direction is {quoted(direction)}; three numbers, not all 0, are needed")
-    return vector.tolist()
+    return False, vector.tolist()

@@ -2,21 +2,28 @@
 //
 //   using namespace holomorph;
 //   Execution execution;  // threads and, if you like, a progress function
-//   const structure::Options options;
 //   const auto surface = mesh::make_surface(mesh::read("kitten.obj"), execution);
 //   const auto part = std::make_shared<mesh::Surface>(mesh::component(surface, 0, execution).surface);
+//   const choice::Request request{.part = choice::part_of(part, uv::Up::kY, {}, execution)};
+//   const auto map = choice::automatic_map(request, choice::SizePolicy::of_tiles({request.part}, 0), execution);
+//   map->uv();  // #corners x 2, of the map that an eye minds least
+//
+// Or one step after the other:
+//
+//   const structure::Options options;
 //   auto found = structure::conformal_structure(part, options, execution);  // e.g. its period matrix
 //   const auto forms = structure::primal_forms(found, options);
 //   const auto c = structure::balanced_coefficients(found, *forms, execution);
-//   const auto uv = structure::uv_map(found, *forms, c, execution);  // #corners x 2
+//   const auto uv = structure::uv_map(found, *forms, c, execution);
 //
-// The last four lines are structure::balanced_map(part, options, execution). Seamless tilings are tiling::place and
-// tiling::tile, those that turn turns::TurnedTiler; islands::island_map cuts at hard edges. uv::quality measures any
-// map, and uv::cost says what an eye minds of it. Errors are the exceptions of base/errors.h.
+// Seamless tilings are those of choice::Tiler, those that turn turns::TurnedTiler's; islands::island_map cuts at hard
+// edges. uv::quality measures any map, and uv::cost says what an eye minds of it. Errors are the exceptions of
+// base/errors.h.
 #pragma once
 
 #include "base/errors.h"
 #include "base/execution.h"
+#include "choice/automatic_map.h"
 #include "evening/evening.h"
 #include "islands/island_search.h"
 #include "mesh/components.h"

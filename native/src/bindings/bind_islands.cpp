@@ -119,19 +119,6 @@ std::pair<Parts, double> cut_in_hiding(const mesh::Surface& surface, const std::
   return {given(std::move(cut.parts)), cut.seen};
 }
 
-SurfacePointer without_windows(const mesh::Surface& surface) {
-  const py::gil_scoped_release unlocked;
-  Execution execution;
-  return std::make_shared<mesh::Surface>(islands::without_windows(surface, execution));
-}
-
-double turn_between(const mesh::Surface& surface, const Contiguous<double>& one, const Contiguous<double>& other) {
-  const auto rows = [](const Contiguous<double>& uv) {
-    return Eigen::Map<const uv::UvArray>(uv.data(), uv.shape(0), 2);
-  };
-  return islands::turn_between(surface, rows(one), rows(other));
-}
-
 }  // namespace
 
 void bind_islands(py::module_& m) {
@@ -161,21 +148,9 @@ void bind_islands(py::module_& m) {
             return mutable_one(search.at_once(most, threads, progress));
           },
           "most"_a, "threads"_a, "progress"_a);
-  m.attr("hard_angles") = py::make_tuple(islands::kHardAngles[0], islands::kHardAngles[1], islands::kHardAngles[2]);
-  m.attr("smooth_angle") = islands::kSmoothAngle;
-  m.attr("evened_cost") = islands::kEvenedCost;
   m.def("parted", &parted, "surface"_a, "uv"_a, "progress"_a);
-  m.attr("rest") = islands::kRest;
-  m.def(
-      "names_of_pieces",
-      [](const mesh::Surface& surface, const Contiguous<bool>& is_hard) {
-        return give(islands::names_of_pieces(surface, {is_hard.data(), is_hard.data() + is_hard.size()}));
-      },
-      "surface"_a, "is_hard"_a);
   m.def("cut_apart", &cut_apart, "surface"_a, "names"_a);
   m.def("cut_in_hiding", &cut_in_hiding, "surface"_a, "up"_a, py::kw_only(), "threads"_a, "progress"_a);
-  m.def("without_windows", &without_windows, "surface"_a);
-  m.def("turn_between", &turn_between, "surface"_a, "one"_a, "other"_a);
   m.def("on_shelves", &on_shelves, "sizes"_a, "width"_a, "gap"_a);
   m.def("pack", &pack, "sizes"_a, "margin"_a);
   m.def("fitting_margin", &islands::fitting_margin, "margin"_a, "count"_a);

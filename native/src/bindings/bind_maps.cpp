@@ -163,7 +163,6 @@ void bind_plane_maps(py::module_& m) {
         py::arg("progress"));
   m.def("free_boundary_map", plane_map(&plane::free_boundary_map), py::arg("surface"), py::arg("solver"),
         py::arg("threads"), py::arg("progress"));
-  m.def("boundary_length", of_surface(&plane::boundary_length), py::arg("surface"));
   m.def("quarter_corners", of_surface(&plane::quarter_corners), py::arg("surface"));
   m.def("clear_corners", of_surface(&plane::clear_corners), py::arg("surface"));
 }

@@ -4,6 +4,9 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
@@ -32,6 +35,29 @@ auto unlocked(int threads, const Compute& compute) {
 
 Quality quality(const mesh::Surface& surface, const Contiguous<double>& uv, int threads) {
   return unlocked(threads, [&](Workers& workers) { return uv::quality(surface, corners(uv), workers); });
+}
+
+template <class T>
+Array<T> array(const Contiguous<T>& values) {
+  return {values.data(), values.data() + values.size()};
+}
+
+// The facade's own value.
+Quality quality_of(const Contiguous<double>& angle, const Contiguous<double>& area, const Contiguous<bool>& flipped,
+                   const Contiguous<double>& weights, double flipped_part, double lost_part, double mean_angle,
+                   double density_ratio, double median_density, std::optional<double> overlapping_part,
+                   double unseen_angle, std::optional<uv::Direction> direction) {
+  const py::ssize_t count = weights.size();
+  if (angle.size() != count || area.size() != count || flipped.size() != count)
+    throw py::value_error("a quality needs one angle, area, flag and weight for each triangle");
+  return {array(angle),     array(area),   {flipped.data(), flipped.data() + flipped.size()},
+          array(weights),   flipped_part,  lost_part,
+          mean_angle,       density_ratio, median_density,
+          overlapping_part, unseen_angle,  std::move(direction)};
+}
+
+Quality joined(const std::vector<const Quality*>& qualities, const std::vector<double>& densities) {
+  return unlocked(1, [&](Workers& workers) { return uv::joined(qualities, densities, workers); });
 }
 
 uv::Direction direction(const mesh::Surface& surface, const Contiguous<double>& uv, const std::string& up, int turns) {
@@ -86,6 +112,10 @@ void bind_values(py::module_& m) {
     return [member](py::object self) { return view(self.cast<const uv::Direction&>().*member, self); };
   };
   py::class_<uv::Direction>(m, "Direction")
+      .def(py::init([](const Contiguous<double>& angle, const Contiguous<double>& steep, double area, int turns) {
+             return uv::Direction{array(angle), array(steep), area, turns};
+           }),
+           "angle"_a, "steep"_a, "area"_a, "turns"_a)
       .def_property_readonly("angle", of_direction(&uv::Direction::angle))
       .def_property_readonly("steep", of_direction(&uv::Direction::steep))
       .def_readonly("area", &uv::Direction::area)
@@ -94,6 +124,8 @@ void bind_values(py::module_& m) {
     return [member](py::object self) { return view(self.cast<const Quality&>().*member, self); };
   };
   py::class_<Quality>(m, "Quality")
+      .def(py::init(&quality_of), "angle"_a, "area"_a, "flipped"_a, "weights"_a, "flipped_part"_a, "lost_part"_a,
+           "mean_angle"_a, "density_ratio"_a, "median_density"_a, "overlapping_part"_a, "unseen_angle"_a, "direction"_a)
       .def_property_readonly("angle", viewed(&Quality::angle))
       .def_property_readonly("area", viewed(&Quality::area))
       .def_property_readonly(
@@ -131,6 +163,7 @@ void bind_quality(py::module_& m) {
                "hard_seam"_a = uv::kHardSeam, "pole"_a = uv::kPole, "cone"_a = uv::kCone, "turn"_a = uv::kTurn,
                "sideways"_a = uv::kSideways, "on_its_head"_a = uv::kOnItsHead);
   m.def("quality", &quality, "surface"_a, "uv"_a, "threads"_a);
+  m.def("joined", &joined, "qualities"_a, "densities"_a);
   m.def("direction", &direction, "surface"_a, "uv"_a, "up"_a, "turns"_a);
   m.def("distortion", &distortion, "vertices"_a, "corner_vertices"_a, "face_offsets"_a, "uv"_a, "up"_a);
   m.def("drawn_densities", &drawn_densities, "vertices"_a, "corner_vertices"_a, "face_offsets"_a, "uv"_a);
@@ -145,8 +178,7 @@ void bind_quality(py::module_& m) {
   m.def(
       "cost_of_direction",
       [](const Contiguous<double>& angle, const Contiguous<double>& steep, double area) {
-        return uv::cost_of_direction(
-            {{angle.data(), angle.data() + angle.size()}, {steep.data(), steep.data() + steep.size()}, area});
+        return uv::cost_of_direction({array(angle), array(steep), area});
       },
       "angle"_a, "steep"_a, "area"_a);
   m.def(

@@ -195,14 +195,12 @@ void bind_invariants(py::class_<Structure, StructurePointer>& type) {
 
 // Runs `compute(options, execution)` without the interpreter's lock.
 template <class Compute>
-StructurePointer make(const Options& options, int threads, const py::object& progress_function, Compute compute) {
+StructurePointer make(const Options& options, int threads, const py::object& progress_function,
+                      const Compute& compute) {
   Execution execution(threads, callback(progress_function));
   const py::gil_scoped_release unlocked;
-  auto made = std::make_shared<Structure>();
-  made->options = options;
+  const StructurePointer made = structure::solved(options, execution, compute);
   made->threads = threads;
-  made->value = compute(options, execution);
-  made->forms = structure::primal_forms(made->value, made->options);
   return made;
 }
 
@@ -251,12 +249,13 @@ StructurePointer paper_of_level(const progressive::ProgressiveMesh& mesh, int sp
 }
 
 void prepare_uv(Structure& s, const py::object& progress) {
-  s.with_forms([](auto& forms, Execution& execution) { forms.prepare(execution); }, callback(progress));
+  with_forms(
+      s, [](auto& forms, Execution& execution) { forms.prepare(execution); }, callback(progress));
 }
 
 structure::SolverReport uv_solver(Structure& s) {
   structure::SolverReport found;
-  s.with_forms([&](auto& forms, Execution& execution) {
+  with_forms(s, [&](auto& forms, Execution& execution) {
     forms.prepare(execution);
     found = forms.solver();
   });
@@ -269,7 +268,7 @@ py::array uv(Structure& s, const Eigen::VectorXcd& p) {
   py::array_t<double> result(
       {static_cast<py::ssize_t>(s.value.surface->polygons.corner_vertices.size()), py::ssize_t{2}});
   Eigen::Map<uv::UvArray> corners(result.mutable_data(), result.shape(0), 2);
-  s.with_forms([&](auto& forms, Execution& execution) {
+  with_forms(s, [&](auto& forms, Execution& execution) {
     structure::write_uv_map(s.value, forms.function(p, execution), p, corners, execution.workers());
   });
   return read_only(std::move(result));
@@ -280,21 +279,21 @@ py::array basis_forms(Structure& s) {
   py::array_t<double> values({static_cast<py::ssize_t>(s.value.topology.families.count()),
                               static_cast<py::ssize_t>(s.value.surface->edges.size())});
   Eigen::Map<forms::RowMajorMatrix> rows(values.mutable_data(), values.shape(0), values.shape(1));
-  s.with_forms([&](auto& forms, Execution& execution) { forms.write_edge_values(rows, execution); });
+  with_forms(s, [&](auto& forms, Execution& execution) { forms.write_edge_values(rows, execution); });
   return read_only(std::move(values));
 }
 
 Eigen::VectorXcd balanced_coefficients(Structure& s, const py::object& progress) {
   Eigen::VectorXcd c;
-  s.with_forms(
-      [&](auto& forms, Execution& execution) { c = structure::balanced_coefficients(s.value, forms, execution); },
+  with_forms(
+      s, [&](auto& forms, Execution& execution) { c = structure::balanced_coefficients(s.value, forms, execution); },
       callback(progress));
   return c;
 }
 
 py::array disk_map(Structure& s) {
   Eigen::VectorXcd z;
-  s.with_forms([&](auto& forms, Execution& execution) {
+  with_forms(s, [&](auto& forms, Execution& execution) {
     z = plane::disk_map(s.value, forms.function(s.value.differentials.col(0), execution), execution.workers());
   });
   return copy(z);
@@ -302,7 +301,7 @@ py::array disk_map(Structure& s) {
 
 py::array sphere_map(Structure& s) {
   plane::PointArray points;
-  s.with_forms([&](auto& forms, Execution& execution) {
+  with_forms(s, [&](auto& forms, Execution& execution) {
     plane::require_sphere(s.value);
     points = plane::sphere_map(s.value, forms.function(s.value.differentials.col(0), execution), execution.workers());
   });
@@ -315,8 +314,8 @@ StructurePointer cut_along(const StructurePointer& s, const std::vector<int>& ed
   made->options = s->options;
   made->threads = s->threads;
   made->uncut = s->uncut ? s->uncut : s;
-  s->with_forms(
-      [&](auto&, Execution& execution) { made->value = structure::cut_along(s->value, edges, labels, execution); });
+  with_forms(
+      *s, [&](auto&, Execution& execution) { made->value = structure::cut_along(s->value, edges, labels, execution); });
   return made;
 }
 

@@ -6,64 +6,159 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/records.h"
+#include "choice/tilers.h"
 #include "mesh/self_intersections.h"
 #include "tiles/cells.h"
 #include "tiles/lines.h"
 #include "tiles/places.h"
 #include "tiles/relief.h"
 #include "tiles/sharp_zones.h"
-#include "tiling/tiling.h"
 #include "turns/turned_tiling.h"
 
 namespace holomorph::bindings {
 namespace {
 
 using namespace pybind11::literals;
+using choice::BoundaryLines;
+using choice::Heading;
+using choice::SeamlessMap;
+using choice::TileOptions;
+using choice::Tiler;
+using Complex = std::complex<double>;
 
-using tiling::Placement;
-using tiling::Tiling;
-
-/// `compute(execution)` without the interpreter's lock, which only the progress function takes.
-template <class Compute>
-auto unlocked(int threads, const py::object& progress, Compute compute) {
-  Execution execution(threads, callback(progress));
-  const py::gil_scoped_release released;
-  return compute(execution);
+const char* name_of(turns::Rows rows) {
+  constexpr std::array<const char*, 4> kNames{"none", "whole", "free", "mirror"};
+  return kNames[static_cast<std::size_t>(rows)];
 }
 
-Placement place(const std::shared_ptr<mesh::Surface>& surface, std::optional<int> count, std::vector<int> vertices,
-                const std::vector<bool>& allowed, bool straight, std::vector<int> labels, bool evened,
-                const std::string& solver, const Placement* like, int threads, const py::object& progress) {
-  tiling::PoleOptions options{
-      count, std::move(vertices), {allowed.begin(), allowed.end()}, straight, std::move(labels), {solver}, evened};
-  return unlocked(threads, progress,
-                  [&](Execution& execution) { return tiling::place(surface, options, execution, like); });
+std::shared_ptr<choice::Part> part(const std::shared_ptr<mesh::Surface>& surface, const std::string& up,
+                                   std::vector<int> labels) {
+  return unlocked(1, py::none(), [&](Execution& execution) {
+    return shared(choice::part_of(surface, up_axis(up), std::move(labels), execution));
+  });
 }
 
-Tiling tile(const Placement& placement, double tiles, const std::array<std::complex<double>, 2>& lattice,
-            std::optional<double> turn, std::optional<std::array<double, 3>> direction, double max_turn,
-            double evenness, bool size_counts, int threads, const py::object& progress) {
-  const tiling::TilingOptions options{tiles,      {lattice[0], lattice[1]}, direction, turn, max_turn, evenness,
-                                      size_counts};
-  return unlocked(threads, progress, [&](Execution& execution) { return tiling::tile(placement, options, execution); });
+TileOptions tile_options(double tiles, double evenness, std::optional<int> count, std::vector<int> poles,
+                         const std::vector<bool>& allowed, const std::array<Complex, 2>& lattice, bool is_upright,
+                         std::optional<std::array<double, 3>> direction, std::optional<double> turn, double max_turn,
+                         const std::string& boundary, std::optional<double> max_added, bool size_counts,
+                         const std::vector<std::pair<int, int>>& moves, int turns, const std::string& lines,
+                         const Contiguous<int>& marked, std::optional<std::vector<int>> missing) {
+  TileOptions result;
+  result.tiles = tiles;
+  result.evenness = evenness;
+  result.poles = {count, std::move(poles), {allowed.begin(), allowed.end()}};
+  result.lattice = lattice;
+  using Kind = Heading::Kind;
+  result.heading.kind = is_upright ? Kind::kUpright : direction ? Kind::kVector : Kind::kAny;
+  if (direction) result.heading.vector = *direction;
+  result.turn = turn;
+  result.max_turn = max_turn;
+  result.boundary = boundary == "straight" ? BoundaryLines::kStraight
+                    : boundary == "free"   ? BoundaryLines::kFree
+                                           : BoundaryLines::kAutomatic;
+  result.max_added = max_added;
+  result.size_counts = size_counts;
+  for (const auto& [pole, vertex] : moves) result.moves.push_back({pole, vertex});
+  result.turns = turns;
+  result.rows = rows_named(lines);
+  result.marked = rows<int, 2>(marked);
+  result.missing = std::move(missing);
+  return result;
 }
 
-Tiling move_poles(const Placement& placement, const Tiling& made, const std::vector<std::pair<int, int>>& moves,
-                  double evenness, int threads, const py::object& progress) {
-  std::vector<tiling::PoleMove> list;
-  for (const auto& [pole, vertex] : moves) list.push_back({pole, vertex});
-  return unlocked(threads, progress,
-                  [&](Execution& execution) { return tiling::move_poles(placement, made, list, evenness, execution); });
+template <std::size_t N>
+py::array integers(const std::vector<std::array<std::int64_t, N>>& rows) {
+  py::array_t<std::int64_t> result({static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(N)});
+  if (!rows.empty()) std::memcpy(result.mutable_data(), rows.data(), rows.size() * sizeof(rows[0]));
+  return read_only(std::move(result));
 }
 
-Tiling evened(const Tiling& made, double evenness, int threads, const py::object& progress) {
-  return unlocked(threads, progress, [&](Execution& execution) { return tiling::evened(made, evenness, execution); });
+Zeros by_columns(const std::vector<uv::Zero>& zeros) {
+  Zeros result;
+  for (const auto& [vertex, order] : zeros) {
+    result.vertices.push_back(vertex);
+    result.orders.push_back(order);
+  }
+  return result;
 }
 
-turns::Rows rows_named(const std::string& lines) {
-  if (lines == "whole") return turns::Rows::kWhole;
-  if (lines == "free") return turns::Rows::kFree;
-  return lines == "mirror" ? turns::Rows::kMirror : turns::Rows::kNone;
+void bind_tilings_of_parts(py::module_& m) {
+  py::class_<choice::Part, std::shared_ptr<choice::Part>>(m, "WholePart")
+      .def(py::init(&part), "surface"_a, "up"_a, "labels"_a);
+  py::class_<TileOptions>(m, "TileOptions")
+      .def(py::init(&tile_options), py::kw_only(), "tiles"_a, "evenness"_a, "count"_a, "poles"_a, "allowed"_a,
+           "lattice"_a, "is_upright"_a, "direction"_a, "turn"_a, "max_turn"_a, "boundary"_a, "max_added"_a,
+           "size_counts"_a, "moves"_a, "turns"_a, "lines"_a, "marked"_a, "missing"_a);
+  py::class_<SeamlessMap, std::shared_ptr<SeamlessMap>>(m, "SeamlessMap")
+      .def_property_readonly("uv", [](const SeamlessMap& made) { return copy(made.uv); })
+      .def_readonly("quality", &SeamlessMap::quality)
+      .def_property_readonly("triangulation", [](const SeamlessMap& made) { return shared(made.triangulation); })
+      .def_readonly("tiles", &SeamlessMap::tiles)
+      .def_readonly("evenness", &SeamlessMap::evenness)
+      .def_readonly("lattice", &SeamlessMap::lattice)
+      .def_property_readonly("seams",
+                             [](const py::object& self) { return view(self.cast<const SeamlessMap&>().seams, self); })
+      .def_property_readonly("periods", [](const SeamlessMap& made) { return integers(made.periods); })
+      .def_property_readonly("poles", [](const SeamlessMap& made) { return copy(made.poles); })
+      .def_property_readonly("residues", [](const SeamlessMap& made) { return copy(made.residues); })
+      .def_property_readonly("zeros", [](const SeamlessMap& made) { return by_columns(made.zeros); })
+      .def_readonly("added_distortion", &SeamlessMap::added_distortion)
+      .def_readonly("beltrami_rms", &SeamlessMap::beltrami_rms)
+      .def_readonly("optimal_size_range", &SeamlessMap::optimal_size_range)
+      .def_property_readonly("rounding",
+                             [](const SeamlessMap& made) {
+                               const tiling::RoundingRecord& r = made.rounding;
+                               return std::tuple{r.integers, r.blocks, r.steps, r.excess};
+                             })
+      .def_readonly("turns", &SeamlessMap::turns)
+      .def_property_readonly("cones", [](const SeamlessMap& made) { return copy(made.cones); })
+      .def_property_readonly("cone_angles", [](const SeamlessMap& made) { return copy(made.cone_angles); })
+      .def_property_readonly("jumps", [](const SeamlessMap& made) { return integers(made.jumps); })
+      .def_property_readonly("lines", [](const SeamlessMap& made) { return name_of(made.rows); });
+}
+
+using MutableTiler = std::shared_ptr<Tiler>;
+using MutableSeamless = std::shared_ptr<SeamlessMap>;
+
+MutableTiler tiler(const std::shared_ptr<choice::Part>& part, const TileOptions& options, bool evened,
+                   const std::string& solver, const Tiler* like, int threads, const py::object& progress) {
+  return unlocked(threads, progress, [&](Execution& execution) {
+    return std::make_shared<Tiler>(part, options.poles, options.boundary, evened, solver, like, execution);
+  });
+}
+
+void bind_tiler(py::module_& m) {
+  py::class_<Tiler, MutableTiler>(m, "Tiler")
+      .def(py::init(&tiler), "part"_a, "options"_a, py::kw_only(), "evened"_a, "solver"_a, "like"_a, "threads"_a,
+           "progress"_a)
+      .def("poles", [](const Tiler& own) { return copy(own.placement().form.poles); })
+      .def("residues", [](const Tiler& own) { return copy(own.placement().form.residues); })
+      .def("density_ratio", [](const Tiler& own) { return own.placement().optimal_density_ratio; })
+      .def(
+          "tile",
+          [](const Tiler& own, const TileOptions& options, int threads, const py::object& progress) {
+            return unlocked(threads, progress,
+                            [&](Execution& execution) { return shared(own.tile(options, execution)); });
+          },
+          "options"_a, py::kw_only(), "threads"_a, "progress"_a)
+      .def(
+          "evened",
+          [](const Tiler& own, const MutableSeamless& tiling, double evenness, int threads,
+             const py::object& progress) {
+            return unlocked(threads, progress,
+                            [&](Execution& execution) { return shared(own.evened(*tiling, evenness, execution)); });
+          },
+          "tiling"_a, "evenness"_a, py::kw_only(), "threads"_a, "progress"_a)
+      .def(
+          "moved",
+          [](const Tiler& own, const MutableSeamless& tiling, const TileOptions& options, int threads,
+             const py::object& progress) {
+            return unlocked(threads, progress, [&](Execution& execution) {
+              return shared(own.moved(*tiling, options.moves, options.evenness, execution));
+            });
+          },
+          "tiling"_a, "options"_a, py::kw_only(), "threads"_a, "progress"_a);
 }
 
 std::unique_ptr<turns::TurnedTiler> turned_tiler(const std::shared_ptr<mesh::Surface>& surface, int turns,
@@ -95,11 +190,6 @@ py::array jumps(const turns::TurnedTiling& made) {
   return give_matrix(std::move(result));
 }
 
-uv::Quality quality_of_tiling(const Tiling& made, const std::optional<std::string>& up, int threads) {
-  const std::optional<uv::Up> axis = up ? std::optional(up_axis(*up)) : std::nullopt;
-  return unlocked(threads, py::none(), [&](Execution& execution) { return tiling::quality(made, axis, execution); });
-}
-
 void bind_turned_tiling(py::module_& m) {
   using turns::TurnedTiling;
   py::class_<TurnedTiling>(m, "TurnedTiling")
@@ -114,53 +204,6 @@ void bind_turned_tiling(py::module_& m) {
            "lines"_a, "marked"_a, "chosen"_a, "price"_a = turns::TilerOptions().price)
       .def("usual_tiles", &turns::TurnedTiler::usual_tiles)
       .def("tile", &turned_tiling, "tiles"_a, py::kw_only(), "evenness"_a, "threads"_a, "progress"_a);
-  m.def(
-      "found_lines",
-      [](const mesh::Surface& surface, const Contiguous<int>& marked) {
-        return give(turns::found_lines(surface, rows<int, 2>(marked)));
-      },
-      "surface"_a, "marked"_a);
-  m.def(
-      "are_whole", [](const Contiguous<int>& ends) { return turns::are_whole(rows<int, 2>(ends)); }, "ends"_a);
-}
-
-void bind_tiling(py::module_& m) {
-  const auto conformal = [](auto member) { return [member](const Tiling& t) { return copy((*t.conformal).*member); }; };
-  py::class_<Tiling>(m, "Tiling")
-      .def("uv", [](const Tiling& t) { return copy(t.uv); })
-      .def("tiles", [](const Tiling& t) { return t.conformal->form.problem->tiles; })
-      .def("rounding",
-           [](const Tiling& t) {
-             const tiling::RoundingRecord& r = t.conformal->form.record;
-             return std::tuple{r.integers, r.blocks, r.steps, r.excess};
-           })
-      .def("lattice",
-           [](const Tiling& t) {
-             const auto& lattice = t.conformal->form.problem->lattice;
-             return copy(std::vector{lattice.a, lattice.b});
-           })
-      .def("periods", [](const Tiling& t) { return copy(t.conformal->seamless.periods); })
-      .def("poles", conformal(&tiling::ConformalTiling::poles))
-      .def("residues", conformal(&tiling::ConformalTiling::residues))
-      .def("surface",
-           [](const Tiling& t) { return std::const_pointer_cast<mesh::Surface>(t.conformal->structure->surface); })
-      .def("zeros",
-           [](const Tiling& t) { return zeros_of_map(*t.conformal->structure->surface, t.uv, t.conformal->poles); })
-      .def("seams", [](const Tiling& t) { return copy(t.conformal->structure->topology.seams); })
-      .def("distortion", [](const Tiling& t) { return t.conformal->distortion; })
-      .def("beltrami_rms", [](const Tiling& t) { return t.conformal->beltrami_rms; });
-  py::class_<Placement, std::shared_ptr<Placement>>(m, "Placement")
-      .def("poles", [](const Placement& p) { return copy(p.form.poles); })
-      .def("residues", [](const Placement& p) { return copy(p.form.residues); })
-      .def_readonly("density_ratio", &Placement::optimal_density_ratio);
-  m.def("place_poles", &place, "surface"_a, py::kw_only(), "count"_a, "vertices"_a, "allowed"_a, "straight"_a,
-        "labels"_a, "evened"_a, "solver"_a, "like"_a, "threads"_a, "progress"_a);
-  m.def("tile", &tile, "placement"_a, py::kw_only(), "tiles"_a, "lattice"_a, "turn"_a, "direction"_a, "max_turn"_a,
-        "evenness"_a, "size_counts"_a, "threads"_a, "progress"_a);
-  m.def("move_poles", &move_poles, "placement"_a, "tiling"_a, "moves"_a, py::kw_only(), "evenness"_a, "threads"_a,
-        "progress"_a);
-  m.def("quality_of_tiling", &quality_of_tiling, "tiling"_a, py::kw_only(), "up"_a, "threads"_a);
-  m.def("evened_tiling", &evened, "tiling"_a, py::kw_only(), "evenness"_a, "threads"_a, "progress"_a);
 }
 
 using mesh::Surface;
@@ -327,7 +370,8 @@ void bind_tiles(py::module_& m) {
 }  // namespace
 
 void bind_tilings(py::module_& m) {
-  bind_tiling(m);
+  bind_tilings_of_parts(m);
+  bind_tiler(m);
   bind_turned_tiling(m);
   bind_tiles(m);
 }

@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <memory>
 #include <string>
 
 #include "base/execution.h"
@@ -17,7 +18,9 @@ void bind_structures(pybind11::module_& m);
 void bind_islands(pybind11::module_& m);
 void bind_maps(pybind11::module_& m);
 void bind_quality(pybind11::module_& m);
+void bind_search(pybind11::module_& m);
 void bind_tilings(pybind11::module_& m);
+void bind_choice(pybind11::module_& m);
 void bind_moduli(pybind11::module_& m);
 
 /// Returns a progress function that looks for Ctrl-C, for callers who give none. Python runs signal handlers in the
@@ -42,6 +45,20 @@ inline Execution::Callback callback(const pybind11::object& progress) {
     pybind11::detail::make_caster<bool> is_true;
     return !is_true.load(answer, false) || static_cast<bool>(is_true);
   };
+}
+
+/// compute(execution) without the interpreter's lock, which only the progress function takes.
+template <class Compute>
+auto unlocked(int threads, const pybind11::object& progress, const Compute& compute) {
+  Execution execution(threads, callback(progress));
+  const pybind11::gil_scoped_release released;
+  return compute(execution);
+}
+
+/// Python holds what the core does not change.
+template <class Value>
+std::shared_ptr<Value> shared(const std::shared_ptr<const Value>& value) {
+  return std::const_pointer_cast<Value>(value);
 }
 
 /// The axis that `Surface.up` names.

@@ -60,5 +60,7 @@ PYBIND11_MODULE(_native, m) {
   bindings::bind_islands(m);
   bindings::bind_structures(m);
   bindings::bind_tilings(m);
+  bindings::bind_search(m);
+  bindings::bind_choice(m);
   bindings::bind_moduli(m);
 }

@@ -27,6 +27,8 @@ Candidate best_candidate(const Placement& placement, const RoundingProblem& prob
 struct PoleMove {
   int pole = 0;  ///< among those that are used
   int vertex = 0;
+
+  bool operator==(const PoleMove&) const = default;
 };
 
 /// Moves poles of a candidate. Residues and periods stay the same; each pole takes the shortest path. On a closed

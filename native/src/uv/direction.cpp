@@ -78,4 +78,14 @@ Direction under(Direction direction, int turns) {
   return direction;
 }
 
+Direction joined(const std::vector<const Direction*>& parts) {
+  Direction result{{}, {}, 0, parts.front()->turns};
+  for (const Direction* each : parts) {
+    result.angle.insert(result.angle.end(), each->angle.begin(), each->angle.end());
+    result.steep.insert(result.steep.end(), each->steep.begin(), each->steep.end());
+    result.area += each->area;
+  }
+  return result;
+}
+
 }  // namespace holomorph::uv

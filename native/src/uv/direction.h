@@ -3,6 +3,7 @@
 
 #include <array>
 #include <complex>
+#include <vector>
 
 #include "base/page_allocator.h"
 #include "base/workers.h"
@@ -28,6 +29,9 @@ Direction direction(const mesh::Surface& surface, const Eigen::Ref<const UvArray
 
 /// The same map under a texture that looks the same after k-th parts of a full turn.
 Direction under(Direction direction, int turns);
+
+/// That of several maps together, the triangles of one after those of the other. @param parts at least one
+Direction joined(const std::vector<const Direction*>& parts);
 
 /// The gradient in the plane u + i v of the coordinate along an axis in space, on a triangle, times its area in the
 /// plane, negative where that is flipped.

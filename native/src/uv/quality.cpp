@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numeric>
 
 #include "base/chunks.h"
 #include "mesh/triangle_geometry.h"
@@ -42,6 +43,19 @@ struct Sums {
     return *this;
   }
 };
+
+// By the triangles.
+void set_densities(Quality& quality, Workers& workers) {
+  const Distribution densities(quality.area, quality.weights, workers);
+  const double low = densities.quantile(kLow);
+  quality.density_ratio = low > 0 ? densities.quantile(kHigh) / low : std::numeric_limits<double>::infinity();
+  quality.median_density = densities.quantile(0.5);
+}
+
+template <class T>
+void append(Array<T>& values, const Array<T>& more) {
+  values.insert(values.end(), more.begin(), more.end());
+}
 
 }  // namespace
 
@@ -82,16 +96,51 @@ Quality quality(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& u
   result.mean_angle = sum.area > 0 ? sum.angle / sum.area : kMostAngle;
   result.flipped_part = sum.area > 0 ? sum.flipped / sum.area : 0;
   result.lost_part = sum.area > 0 ? sum.lost / sum.area : 0;
-  const Distribution densities(result.area, areas, workers);
-  const double low = densities.quantile(kLow);
-  result.density_ratio = low > 0 ? densities.quantile(kHigh) / low : std::numeric_limits<double>::infinity();
-  result.median_density = densities.quantile(0.5);
+  set_densities(result, workers);
   if (!(sum.area > 0)) std::ranges::fill(areas, 1.0);  // a mean over triangles
   return result;
 }
 
 void set_evened_from(Quality& quality, const Quality& before, double evenness) {
   quality.unseen_angle = std::min(std::max(quality.mean_angle - before.mean_angle, 0.0), kUnseen * evenness);
+}
+
+Quality of_density(Quality quality, double density) {
+  if (!(quality.median_density > 0)) return quality;
+  const double factor = density / quality.median_density;
+  for (double& area : quality.area) area *= factor;
+  quality.median_density *= factor;
+  return quality;
+}
+
+Quality joined(const std::vector<const Quality*>& qualities, const std::vector<double>& densities, Workers& workers) {
+  if (qualities.size() == 1) return of_density(*qualities[0], densities[0]);
+  Quality result;
+  std::vector<const Direction*> directions;
+  double overlapping = 0, all = 0, angles = 0;
+  for (std::size_t k = 0; k < qualities.size(); ++k) {
+    const Quality scaled = of_density(*qualities[k], densities[k]);
+    append(result.angle, scaled.angle);
+    append(result.area, scaled.area);
+    append(result.flipped, scaled.flipped);
+    append(result.weights, scaled.weights);
+    const double share = std::accumulate(scaled.weights.begin(), scaled.weights.end(), 0.0);
+    for (std::size_t t = 0; t < scaled.angle.size(); ++t)
+      angles += scaled.weights[t] * std::min(scaled.angle[t], kMostAngle);
+    all += share;
+    result.flipped_part += share * scaled.flipped_part;
+    result.lost_part += share * scaled.lost_part;
+    result.unseen_angle += share * scaled.unseen_angle;
+    overlapping += share * scaled.overlapping_part.value_or(0);
+    if (scaled.overlapping_part) result.overlapping_part = 0;
+    if (scaled.direction) directions.push_back(&*qualities[k]->direction);
+  }
+  result.mean_angle = angles / all;
+  for (double* part : {&result.flipped_part, &result.lost_part, &result.unseen_angle}) *part /= all;
+  if (result.overlapping_part) result.overlapping_part = overlapping / all;
+  set_densities(result, workers);
+  if (!directions.empty()) result.direction = joined(directions);
+  return result;
 }
 
 }  // namespace holomorph::uv

@@ -42,4 +42,11 @@ Quality quality(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& u
 /// Notes what evening added unseen to a map with the quality `before`. @param evenness from 0 to 1
 void set_evened_from(Quality& quality, const Quality& before, double evenness);
 
+/// The quality of the map scaled until its median density is this one; a map without area keeps its own.
+Quality of_density(Quality quality, double density);
+
+/// The quality of several maps together, each scaled like that. Triangles of one map follow those of the other.
+/// @param qualities at least one. @param densities one for each
+Quality joined(const std::vector<const Quality*>& qualities, const std::vector<double>& densities, Workers& workers);
+
 }  // namespace holomorph::uv

@@ -121,8 +121,8 @@ def test_a_scattered_map_leaves_others_their_precision():
     scattered = replace(other, uv=uv)
     assert scattered.cost == np.inf > other.cost
     both = square([whole, scattered])
-    assert max(both._sizes[1]) <= SCATTERED * np.sqrt(other.surface.area) * (1 + SINGLE)
-    assert both._sizes[0] == square([whole])._sizes[0]
+    assert max(both.sizes[1]) <= SCATTERED * np.sqrt(other.surface.area) * (1 + SINGLE)
+    assert both.sizes[0] == square([whole]).sizes[0]
 
 
 def test_no_maps_give_zeros():

@@ -4,11 +4,10 @@ import holomorph
 import pytest
 from families import block_with_holes, geodesic_sphere, punched, torus
 from holomorph import _native
-from holomorph.maps.budget import Budget
-from holomorph.maps.map_search import SHORT
 from solids import bracket, can
 
 LITTLE, MUCH = 1e-9, 1e6
+SHORT = "not all was tried"
 SURFACES = {
     "sphere": lambda: geodesic_sphere(8),
     "torus": lambda: torus(24, 12),
@@ -54,18 +53,6 @@ def test_with_little_work_there_is_a_map_and_it_says_so(name):
 def test_a_tiling_that_is_asked_for_is_made_whatever_it_takes():
     surface = surface_of("handles")
     assert holomorph.automatic_map(surface, main="seamless", turns=4, effort=LITTLE).tiling
-
-
-def test_what_was_spent_adds_up():
-    surface, budget = surface_of("torus"), Budget(0, 1e-3)
-    with budget:
-        assert budget.goes_on()
-        with budget:
-            _, count = worked(lambda: holomorph.automatic_map(surface))
-        assert budget.allows(1e6 - count - 1) and not budget.allows(1e6 - count)
-    assert budget.allows(1e6 - count - 1) and not budget.allows(1e6 - count)
-    assert budget.allows(1e6 - count, times=2) and not budget.was_short
-    assert not budget.goes_on(1e6) and budget.was_short
 
 
 @pytest.mark.parametrize("effort", [0, -1, float("nan"), float("inf"), "much", None])

@@ -11,8 +11,8 @@ import families
 import numpy as np
 import pytest
 from holomorph import Surface, automatic_map
-from holomorph.quality.distortion import quantiles
 from limbed import limbs, spikes
+from measured import quantiles
 from repository import ROOT
 from shared_data import shared_folder
 from solved import surface_of

@@ -1,62 +1,19 @@
-"""Parts of a mesh: worked on side by side, copies once."""
+"""Parts of a mesh: copies are mapped once."""
 
-import threading
 from dataclasses import replace
 
 import families
 import holomorph
 import numpy as np
 import pytest
-from holomorph import Cancelled, Surface, automatic_maps
-from holomorph.core.progress import LARGE, side_by_side
-from holomorph.mesh.copies import copies
+from holomorph import Surface, _native, automatic_maps
+from holomorph.tiling.options import part_of
 from solved import surface_of
 
-SIZES = [5, 700, 30, LARGE + 1, 12, LARGE, 90]
 
-
-@pytest.mark.parametrize("threads", [1, 2, 7, None])
-def test_results_are_in_the_order_of_the_parts(threads):
-    asked = {}
-
-    def work(k, own_threads, _progress):
-        asked[k] = own_threads
-        return k * k
-
-    assert side_by_side(work, SIZES, threads) == [k * k for k in range(len(SIZES))]
-    assert {k for k, own in asked.items() if own == threads} >= {3, 5}  # large parts keep all threads busy
-    assert all(own == 1 for k, own in asked.items() if SIZES[k] < LARGE)
-
-
-def test_of_several_errors_the_first_by_part_is_raised():
-    def work(k, _threads, _progress):
-        if k in (2, 4):
-            raise ValueError(f"part {k}")
-
-    with pytest.raises(ValueError, match="part 2"):
-        side_by_side(work, [1] * 6, 1)
-
-
-@pytest.mark.parametrize("sizes", [[1] * 8, [LARGE] * 3, [LARGE, 1, 1]])
-def test_progress_grows_in_the_calling_thread_and_cancels(sizes):
-    told, caller = [], threading.get_ident()
-
-    def progress(fraction, stage):
-        assert threading.get_ident() == caller
-        told.append((fraction, stage))
-
-    def work(_k, _threads, ask):
-        waiting = threading.Event()
-        for step in range(5):
-            if not (ask is None or ask(step / 5, "working") is not False):
-                raise Cancelled("stopped")
-            waiting.wait(0.01)
-
-    side_by_side(work, sizes, 2, progress)
-    fractions = [fraction for fraction, _ in told]
-    assert fractions and fractions == sorted(fractions) and fractions[-1] <= 1 + 1e-12
-    with pytest.raises(Cancelled):
-        side_by_side(work, sizes, 2, lambda *_: False)
+def copies(parts):
+    """(index of the part that stands for it, lengths over those of that one) of each part."""
+    return _native.copies([part_of(part) for part in parts], None)
 
 
 def moved(surface, angle=0.0, scale=1.0, shift=(0.0, 0.0, 0.0), axis=2):
@@ -72,8 +29,8 @@ def test_copies_are_moved_turned_about_the_vertical_and_scaled():
     parts = [first, moved(first, 0.7, 1.0, (3, 4, 5)), moved(first, 0.2, 2.5), moved(first, 0.5, axis=0)]
     parts.append(moved(surface_of(families.torus(12, 8, R=2.1, shape="triangles"))))
     found = copies(parts)
-    assert [copy.first for copy in found] == [0, 0, 0, 3, 4]
-    assert found[2].scale == pytest.approx(2.5, rel=1e-6)
+    assert [index for index, _ in found] == [0, 0, 0, 3, 4]
+    assert found[2][1] == pytest.approx(2.5, rel=1e-6)
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -86,10 +43,10 @@ def test_copies_far_away_are_those_that_single_precision_makes(seed):
     vertices = np.array(far.vertices)
     longest = 2 * 3**0.5 * np.spacing(np.float32(np.abs(vertices).max())) / 2
     assert np.abs(far._native.edge_lengths - first._native.edge_lengths).max() > longest / 10
-    assert [copy.first for copy in copies([first, far])] == [0, 0]
+    assert [index for index, _ in copies([first, far])] == [0, 0]
     vertices[40, 2] += 4 * longest
     other = Surface.from_polygons(vertices, first.corner_vertices, first.face_offsets)
-    assert [copy.first for copy in copies([first, other])] == [0, 1]
+    assert [index for index, _ in copies([first, other])] == [0, 1]
 
 
 @pytest.mark.parametrize("scale", [1.0, 0.37])
@@ -98,7 +55,7 @@ def test_polygons_with_corners_on_a_circle_are_cut_alike_in_all_copies(scale):
     first = surface_of(families.torus(24, 12))
     parts = [first, *(moved(first, angle, scale, (3, 4, 5)) for angle in (0.1, 0.7, 2.0))]
     assert all(np.array_equal(part.triangles, first.triangles) for part in parts)
-    assert [copy.first for copy in copies(parts)] == [0] * 4
+    assert [index for index, _ in copies(parts)] == [0] * 4
 
 
 def test_the_map_of_a_copy_is_that_of_its_part():

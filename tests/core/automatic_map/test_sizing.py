@@ -3,14 +3,11 @@
 import families
 import numpy as np
 import pytest
-from holomorph import Quality, Surface, automatic_map, automatic_maps, automatic_structure
+from holomorph import Surface, automatic_map, automatic_maps
 from holomorph.maps.arrangement import arranged
-from holomorph.maps.budget import Budget
-from holomorph.maps.map import Map
 from holomorph.maps.map_objects import map_objects
 from holomorph.maps.request import Request
-from holomorph.maps.size import LIKE_SIZE, TOLERANCE, SizePolicy, best_window, is_in, window_around
-from holomorph.maps.tiling_search import MOST_STRETCHED, UNEVEN, TilingSearch, stretched
+from holomorph.maps.size import TOLERANCE, SizePolicy
 from holomorph.quality.distortion import drawn_densities
 from solved import surface_of
 
@@ -24,14 +21,6 @@ def limb(scale=1.0, length=6.0):
     is_limb = points[:, 2] > 0.3
     points[is_limb, 2] += length * (points[is_limb, 2] - 0.3)
     return Surface.from_polygons(scale * points, surface.corner_vertices, surface.face_offsets)
-
-
-def test_the_window_holds_the_wanted_density_and_most_by_weight():
-    assert best_window([], []) == window_around()
-    sizes = [[0.93], [0.92, 1.2], [1.06], [1.5]]
-    low, high = best_window(sizes, [1.0, 1.0, 1.5, 9.0])
-    assert low <= 0.92 and low <= 1 <= high == pytest.approx(low * LIKE_SIZE)
-    assert is_in(best_window(sizes, [1.0, 1.0, 2.5, 9.0]), 1.06)
 
 
 @pytest.mark.parametrize("options", [{}, {"tiles": 150.0}, {"density": 12.0}], ids=["default", "tiles", "density"])
@@ -71,66 +60,11 @@ def test_squares_of_nearly_one_size_are_preferred_to_a_seam(scale):
     parts = [torus(1.0), torus(scale)]
     first, second = automatic_maps(parts, density=8.77)
     missed = second.density / first.density
-    assert first.kind == second.kind == "tiling" and abs(missed - 1) <= TOLERANCE and not is_in(window_around(), missed)
+    assert first.kind == second.kind == "tiling" and 0.05 < abs(missed - 1) <= TOLERANCE
     assert second.cost + abs(np.log(missed)) <= automatic_map(parts[1], main="untiled").cost
     requests, size = [Request(part) for part in parts], SizePolicy.of(parts, density=first.density, tolerance=0.05)
     (((_, exact), _),) = map_objects([requests], size)
     assert not exact.is_tiled
-
-
-@pytest.mark.parametrize("factor", [0.8, 1 / MOST_STRETCHED, 1.3])
-@pytest.mark.parametrize("turn", [0.0, 0.3], ids=["along u", "oblique"])
-def test_a_limb_is_stretched_across_its_jumps_and_shows_no_seam(factor, turn):
-    made = automatic_map(limb(), main="seamless", poles=2, turn=turn, max_turn=0.05, evenness=0.0).tiling
-    assert (made.residues.imag != 0).any() == (turn > 0)
-    found = stretched(made, factor, "square")
-    assert found.quality.median_density == pytest.approx(factor * made.quality.median_density)
-    own = Quality.of(made.quality._triangulation, found.uv, 1)
-    assert np.allclose(found.quality.area, own.area, rtol=1e-4) and found.quality.mean_angle == own.mean_angle
-    vertices = limb().corner_vertices
-    _, first, index = np.unique(vertices, return_index=True, return_inverse=True)
-    is_place = ~np.isin(vertices, made.poles)
-    before, after = ((uv - uv[first[index]])[is_place] for uv in (made.uv, found.uv))
-    assert before.any() and np.array_equal(before, np.rint(before)) and np.array_equal(before, after)
-    stretch = max(factor, 1 / factor)
-    assert found.quality.mean_angle == pytest.approx(stretch, abs=0.2) and not found.quality.flipped.any()
-
-
-def blob(seed):
-    """A ball with bumps, of few triangles."""
-    mesh = families.geodesic_sphere(5)
-    waves = np.random.default_rng(seed).normal(size=(6, 3)) * 3
-    bumps = 1 + 0.12 * np.sin(mesh.vertices @ waves.T).sum(axis=1)
-    return surface_of(families.Mesh(mesh.vertices * bumps[:, None], mesh.corners, mesh.offsets))
-
-
-@pytest.mark.parametrize("seed", range(8))
-def test_more_poles_are_tried_where_the_map_is_less_even_than_foretold(seed):
-    surface = blob(seed)
-    structure = automatic_structure(surface)
-    first = Map.of_tiling(surface, structure, structure.tile(60, direction="upright", evenness=0.5))
-    stages = []
-
-    def found(evenness):
-        search = TilingSearch(surface, structure, Request(surface, main="seamless", evenness=evenness), Budget(1, 1e6))
-        (made,) = search.of_density(60 / surface.area, 1, lambda _fraction, stage: stages.append(stage))
-        return made
-
-    made = found(0.5)
-    if first.drawn_range <= UNEVEN:
-        assert np.array_equal(made.uv, first.uv)
-    else:
-        assert made.cost <= first.cost
-    stages.clear()
-    assert found(1.0).evenness == 1.0 and "search for poles" not in stages
-
-
-def test_what_jumps_both_ways_or_would_be_stretched_too_far_is_not():
-    made = automatic_map(limb(), main="seamless", poles=2).tiling
-    for factor in (1.01 * MOST_STRETCHED, 0.99 / MOST_STRETCHED):
-        assert stretched(made, factor, "square") is None
-    torus = automatic_map(surface_of(families.torus(16, 8)), main="seamless").tiling
-    assert stretched(torus, 1.0, "square") is None
 
 
 @pytest.mark.parametrize("size", [{}, {"tiles": 300.0}, {"density": 6.0}], ids=["default", "tiles", "density"])

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from families import torus
 from holomorph import Cancelled, Surface, TiledSurface, _native, automatic_map, automatic_maps, island_map
-from holomorph.mesh.copies import copies
 from holomorph.quality.overlap import overlapping_part
+from holomorph.tiling.options import part_of
 from tiled_grids import flat_square
 
 MOST = 1.4  # exponent of growth
@@ -77,7 +77,7 @@ def wheel():
 
 FUNCTIONS = {
     "maps": lambda surface: automatic_maps(surface.components, threads=1),
-    "copies": lambda surface: copies(surface.components),
+    "copies": lambda surface: _native.copies([part_of(part) for part in surface.components], None),
     "island map": lambda surface: island_map(surface.components[0], evenness=0.5, threads=1),
 }
 
@@ -86,7 +86,7 @@ FUNCTIONS = {
     ("function", "measure", "size"),
     [
         ("maps", calls, 100),
-        ("copies", calls, 100),
+        ("copies", operations, 100),
         ("island map", calls, 100),
         ("island map", operations, 250),
         ("island map", peak, 750),

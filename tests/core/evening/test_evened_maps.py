@@ -6,8 +6,8 @@ import pytest
 from evened_disks import bumpy_disk, jumps, rim
 from holomorph import Cancelled, Surface, TopologyError, _native, conformal_structure, free_boundary_map, rectangle_map
 from holomorph.maps.evened_forms import evened
-from holomorph.quality.distortion import quantiles
 from holomorph.quality.quality import Quality
+from measured import quantiles
 from solved import CLOSED, surface_of
 
 EXACT = 1e-12

@@ -4,9 +4,8 @@ import families
 import holomorph
 import numpy as np
 import pytest
-from holomorph import Surface, automatic_map, automatic_maps
+from holomorph import Surface, _native, automatic_map, automatic_maps
 from holomorph.maps.arrangement import Arrangement, arranged
-from holomorph.maps.pieces import Piece, closed, cut_apart, opened
 from holomorph.maps.report import part_report
 from holomorph.mesh.edges import following_corners, polygon_sides
 from holomorph.quality.quality import Quality
@@ -52,9 +51,10 @@ def jumps(surface, uv):
 
 
 def pieces(surface):
-    """The tube and its ends."""
+    """The tube and its ends, as (surface, corner in the whole)."""
     count = len(surface.face_offsets) - 1
-    return cut_apart(surface, np.maximum(np.arange(count) - count + 3, 0))
+    names = np.maximum(np.arange(count) - count + 3, 0).astype(np.int32)
+    return [(own, corners) for own, _, _, corners in _native.cut_apart(surface.components[0]._native, names)]
 
 
 def test_whole_tiles_lie_around_the_tube(mapped):
@@ -66,7 +66,7 @@ def test_whole_tiles_lie_around_the_tube(mapped):
 
 def test_pieces_have_one_density_and_every_face_an_area(mapped):
     surface, made = mapped
-    found = [Quality.of(one._native, np.ascontiguousarray(made.uv[one.corner_index]), 0) for one in pieces(surface)]
+    found = [Quality.of(own, np.ascontiguousarray(made.uv[corners]), 0) for own, corners in pieces(surface)]
     medians = [quality.median_density for quality in found]
     assert max(medians) < 1.1 * min(medians) and made.density == pytest.approx(np.median(medians), rel=0.1)
     for quality in found:
@@ -184,22 +184,6 @@ def test_the_report_tells_of_the_tilings():
     assert [tiling["poles"] for tiling in entry["tilings"]] == [[]]
 
 
-def test_rows_that_turn_are_told_from_a_turned_map():
-    """A sector of a ring in polar coordinates: in the plane its rows turn by its angle, half either way."""
-    angle = 0.6
-    tube = capped(1 + 0 * HEIGHTS, 64)
-    surface = cut_apart(tube, np.arange(len(tube.face_offsets) - 1) < 64 * RINGS)[0]
-    n = 64
-    turn = np.repeat(np.arange(n)[None], RINGS, axis=0)[..., None] + [0, 1, 1, 0]
-    height = np.repeat(np.arange(RINGS)[:, None], n, axis=1)[..., None] + [0, 0, 1, 1]
-    polar = (1 + 0.01 * height) * np.exp(1j * angle * turn / n)
-    plain = np.log(polar)
-    uv = [np.stack([z.real, z.imag], axis=-1).reshape(-1, 2) for z in (polar, plain, 1j * plain)]
-    piece = Piece(surface, 0, uv[0], 0.0)
-    assert [piece.turn(other) for other in uv[1:]] == pytest.approx([angle / 4] * 2, rel=1e-2)
-    assert Piece(surface, 0, uv[1], 0.0).turn(uv[2]) == pytest.approx(0, abs=EXACT)
-
-
 def with_window(surface, first, count):
     """Without some of its quads, next to each other in each of the two middle rings."""
     n = len(surface.vertices) // (RINGS + 1)
@@ -215,19 +199,6 @@ def test_whole_tiles_lie_around_a_tube_with_a_window(count):
     found = jumps(surface, made.uv)
     assert made.kind == "mixed" and np.abs(found - np.round(found)).max() <= EXACT
     assert made.quality.density_ratio < 1.02  # without the window it is 1
-
-
-def test_a_window_is_closed_while_a_tube_is_mapped():
-    surface = with_window(capped(*SHAPES["cylinder of 32"]), 4, 3)
-    names = np.diff(surface.face_offsets) == 4
-    tube = next(part for part in cut_apart(surface, names) if names[part.face_index[0]])
-    filled = closed(tube)
-    assert (tube.boundary_count, filled.boundary_count) == (3, 2) and closed(filled) is filled
-    assert np.array_equal(filled.corner_vertices[: len(tube.corner_vertices)], tube.corner_vertices)
-    made = automatic_map(filled)
-    again = opened(made, tube)
-    assert again.surface is tube and np.array_equal(again.uv, made.uv[: len(tube.corner_vertices)])
-    assert len(again.quality.angle) == len(tube.triangles) and opened(made, filled) is made
 
 
 def test_softer_edges_divide_where_the_hard_ones_leave_what_stretches():

@@ -34,8 +34,9 @@ ROOM_BELOW = {
     "moduli": ["conformal", "lattice"],
     "plane": ["structure"],
     "islands": ["plane", "evening"],
+    "choice": ["turns", "islands"],
     "multiresolution": ["structure"],
-    "bindings": ["tiles", "turns", "moduli", "islands", "multiresolution"],
+    "bindings": ["tiles", "moduli", "choice", "multiresolution"],
 }
 # The rooms of the package, each of which imports only earlier ones. What lies in the package itself begins with all.
 PACKAGE_ROOMS = (

@@ -1,0 +1,136 @@
+#include "choice/untiled.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "mesh/facets.h"
+#include "mesh/hard_edges.h"
+#include "uv/appearance.h"
+
+namespace holomorph::choice {
+namespace {
+
+using SharedIslands = std::shared_ptr<const islands::Islands>;
+
+// The work on a tiling, in millionths of about a second, for each triangle of the level on which poles are placed, and
+// of the part; how much of it is spent on islands where there is a tiling, and what is spent on them in any case.
+constexpr double kPlaced = 40, kLevel = 10'000, kRounded = 8;
+constexpr double kBudget = 0.4, kLeastWork = 100'000;
+
+// What ask() finds; nothing where islands collapse or cannot be made: another map may be.
+template <class Ask>
+SharedIslands found_or_none(const Ask& ask) {
+  const SharedIslands found = unless_refused(ask, [](const Error&) { return SharedIslands(); });
+  return found && std::isfinite(found->cost()) ? found : nullptr;
+}
+
+// How it is flattened, in one sentence.
+std::string how(const islands::Islands& flat) {
+  std::ostringstream text;
+  text.precision(3);
+  text << "it flattens ";
+  if (flat.seams.empty()) {
+    text << "in one piece";
+  } else {
+    text << "along its " << (flat.soft_length <= kMostSoft ? "hard edges" : "seams") << " into " << flat.count
+         << (flat.count == 1 ? " piece" : " pieces");
+  }
+  text << ": size range " << std::sqrt(flat.quality.density_ratio);
+  return text.str();
+}
+
+double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+}  // namespace
+
+Untiled::Untiled(PartPointer part, StructurePointer structure, double evenness, bool is_upright, Execution& execution)
+    : part_(std::move(part)), structure_(std::move(structure)), evenness_(evenness), is_upright_(is_upright) {
+  if (!part_->has_positions() || !(part_->area > 0)) return;
+  const islands::IslandOptions options{evenness, part_->up, is_upright};
+  search_ = std::make_unique<islands::IslandSearch>(*part_->surface, options, execution);
+}
+
+MapPointer Untiled::at_once(Execution& execution) {
+  if (!may_flatten()) return nullptr;
+  SharedIslands flat = found_or_none([&] { return search_->at_once(kGood, execution); });
+  if (flat && uv::cost_of_squares(flat->quality) > kFlat) {
+    const SharedIslands better = found_or_none([&] { return search_->best(flat->cost(), work(), execution); });
+    flat = better ? better : flat;
+  }
+  return map(flat, "", execution);
+}
+
+MapPointer Untiled::islands(double most, std::optional<double> work, Execution& execution) {
+  if (!search_ || (!work && most < kPoor && !may_flatten())) return nullptr;
+  const double allowed = work.value_or(this->work());
+  return map(found_or_none([&] { return search_->best(most, allowed, execution); }), "", execution);
+}
+
+MapPointer Untiled::instead(const std::string& why, Execution& execution) {
+  if (!search_) return nullptr;
+  const SharedIslands flat = found_or_none([&] { return search_->best(kInfinity, kInfinity, execution); });
+  return flat ? map(flat, "it has " + why + "; " + how(*flat), execution) : nullptr;
+}
+
+MapPointer Untiled::balanced(double most, const std::string& why, Execution& execution) {
+  if (!conformal_) conformal_ = choice::form_map(part_, structure_, {}, 0, is_upright_, "it was asked for", execution);
+  double least = conformal_->cost();
+  if (evenness_ > 0 && std::isfinite(least))
+    least -= (1 - islands::kEvenedCost) * uv::cost_of_squares(conformal_->quality());
+  if (!(least < most)) return nullptr;
+  const MapPointer made = form_map(why, execution);
+  return made->cost() < most ? made : nullptr;
+}
+
+MapPointer Untiled::best(const std::string& why, Execution& execution) {
+  const MapPointer made = form_map(why, execution);
+  const MapPointer flat = islands(made->cost(), kInfinity, execution);
+  return flat ? flat : made;
+}
+
+MapPointer Untiled::one_island(const SeamlessMap& tiling, const std::string& why, Execution& execution) const {
+  if (!part_->has_positions()) return nullptr;
+  auto flat = std::make_shared<islands::Islands>();
+  const double density = tiling.quality.median_density;
+  flat->uv = tiling.uv / std::sqrt(density);
+  flat->seams = tiling.seams;
+  flat->count = 1;
+  const auto& points = part_->surface->polygons.vertices;
+  for (const auto& [a, b] : tiling.seams) flat->soft_length += distance(points[a], points[b]);
+  flat->soft_length /= std::sqrt(part_->area);
+  flat->quality = uv::of_density(tiling.quality, 1);
+  flat->evenness = tiling.evenness;
+  return map(flat, why, execution);
+}
+
+MapPointer Untiled::map(SharedIslands flat, std::string why, Execution& execution) const {
+  if (!flat) return nullptr;
+  if (why.empty()) why = how(*flat);
+  return std::make_shared<const Map>(part_, structure_, std::move(flat), std::move(why), execution);
+}
+
+MapPointer Untiled::form_map(const std::string& why, Execution& execution) const {
+  return choice::form_map(part_, structure_, {}, evenness_, is_upright_, why, execution);
+}
+
+bool Untiled::may_flatten() {
+  if (!search_) return false;
+  if (!may_flatten_) {
+    std::vector<char> is_hard;
+    for (const double bend : mesh::breaks(*part_->surface))
+      is_hard.push_back(bend > mesh::radians(islands::kHardAngles.back()));
+    may_flatten_ = mesh::curvature(*part_->surface, is_hard, mesh::kTip) <= kMostCurved;
+  }
+  return *may_flatten_;
+}
+
+double Untiled::work() const {
+  const double count = part_->triangle_count();
+  return kLeastWork + kBudget * (kPlaced * std::min(count, kLevel) + kRounded * count);
+}
+
+}  // namespace holomorph::choice

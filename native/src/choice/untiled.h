@@ -1,0 +1,63 @@
+// The maps of a part without whole tiles: the balanced one of its structure, and flat islands.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "choice/map.h"
+#include "islands/island_search.h"
+
+namespace holomorph::choice {
+
+/// What islands may cost (see uv/appearance.h) to be taken at once: less than a tiling does with poles.
+inline constexpr double kGood = 0.8;
+inline constexpr double kFlat = 0.3;  ///< what is minded of squares that hardly differ
+inline constexpr double kPoor = 2.4;  ///< cost of a map, from which on islands are looked for whatever the curvature
+/// Length of a seam across the smooth over the square root of the area, that is not minded.
+inline constexpr double kMostSoft = 0.02;
+/// Curvature off hard edges, that of two spheres: where there is more, islands have long seams.
+inline constexpr double kMostCurved = 8 * std::numbers::pi;
+
+/// Each map is made when it is asked for, once. There are no islands where they collapse, as where all faces lie on
+/// lines: on a smooth part they take longer than a tiling, and cost more.
+class Untiled {
+ public:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+  Untiled(PartPointer part, StructurePointer structure, double evenness, bool is_upright, Execution& execution);
+
+  /// The best islands so far, if they were looked for.
+  std::shared_ptr<const islands::Islands> known() const { return search_ ? search_->known() : nullptr; }
+  /// The islands that cost so little that hardly another map costs less, if there are any, or better ones.
+  MapPointer at_once(Execution& execution);
+  /// The islands of least cost, if it is below `most`, and they are found by so much work (islands/island_search.h).
+  /// @param work none: a part of that on a tiling
+  MapPointer islands(double most, std::optional<double> work, Execution& execution);
+  /// The islands, however long they take, where no other map is tried.
+  MapPointer instead(const std::string& why, Execution& execution);
+  /// The balanced map, if it costs less than `most`. It is evened only where that may bring it there.
+  MapPointer balanced(double most, const std::string& why, Execution& execution);
+  /// The one of least cost, however long islands take.
+  MapPointer best(const std::string& why, Execution& execution);
+  /// A tiling scaled to the wanted size, as one island with its seams; null on an intrinsic surface.
+  MapPointer one_island(const SeamlessMap& tiling, const std::string& why, Execution& execution) const;
+
+ private:
+  MapPointer map(std::shared_ptr<const islands::Islands> flat, std::string why, Execution& execution) const;
+  MapPointer form_map(const std::string& why, Execution& execution) const;
+  bool may_flatten();
+  double work() const;
+
+  PartPointer part_;
+  StructurePointer structure_;
+  double evenness_;
+  bool is_upright_;
+  std::unique_ptr<islands::IslandSearch> search_;
+  MapPointer conformal_;
+  std::optional<bool> may_flatten_;
+};
+
+}  // namespace holomorph::choice
