@@ -91,5 +91,8 @@ class _Maps:
     def _structure(self, core, request):
         if core is None:  # islands took its place
             return request.structure or LateStructure(request.surface, request.surface, self._threads)
-        is_given = request.structure is not None and not isinstance(request.structure, LateStructure)
-        return request.structure if is_given else structure_of(core, request.surface, self._threads)
+        given = request.structure
+        if isinstance(given, LateStructure) and "made" in vars(given):
+            given = given.made
+        is_given = given is not None and not isinstance(given, LateStructure)
+        return given if is_given else structure_of(core, request.surface, self._threads)

@@ -66,21 +66,25 @@ class Request:
         """The core's own value. Raises ValueError for an option that no tiling has."""
         if self.main not in MAIN_MAPS:
             raise ValueError(f"main is {quoted(self.main)}; one of {', '.join(MAIN_MAPS)} is needed")
-        structure = self.structure and not isinstance(self.structure, LateStructure)
-        core = self.structure._core if structure else None
-        part = self.structure._part if structure else part_of(self.surface)
-        lines = self.options.get("lines", AUTOMATIC)
-        coefficients = self.coefficients
+        structure, coefficients = self._solved, self.coefficients
         return _native.Request(
-            part,
-            core,
+            structure._part if structure else part_of(self.surface),
+            structure._core if structure else None,
             main=self.main,
             evenness=checked_evenness(self.evenness),
             coefficients=None if coefficients is None else np.asarray(coefficients, complex),
             tiling=tile_options(self.surface, self.poles, direction=self.direction, **self.options),
-            lines=lines,
+            lines=self.options.get("lines", AUTOMATIC),
             effort=self.effort,
         )
+
+    @property
+    def _solved(self):
+        """The structure, if it is solved for or has to be; else None: other maps than of forms may do."""
+        is_late = isinstance(self.structure, LateStructure)
+        if is_late and (self.main in ("seamless", "balanced") or not isinstance(self.poles, str)):
+            return self.structure.made
+        return None if is_late else self.structure
 
 
 @dataclass(frozen=True, eq=False)

@@ -55,6 +55,9 @@ def test_what_needs_forms_gets_them():
     balanced = automatic_map(surface, main="balanced", evenness=0)
     assert balanced.structure.period_matrix.tobytes() == structure.period_matrix.tobytes()
     assert balanced.kind == "forms"
+    late = late_structure.late_structure(surface)
+    again = automatic_map(surface, late, main="balanced", evenness=0)
+    assert again.structure is late.made  # the next map does not solve for it again
 
 
 def test_parts_of_a_mesh():
