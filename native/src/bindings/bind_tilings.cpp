@@ -204,6 +204,12 @@ void bind_turned_tiling(py::module_& m) {
            "lines"_a, "marked"_a, "chosen"_a, "price"_a = turns::TilerOptions().price)
       .def("usual_tiles", &turns::TurnedTiler::usual_tiles)
       .def("tile", &turned_tiling, "tiles"_a, py::kw_only(), "evenness"_a, "threads"_a, "progress"_a);
+  m.def(
+      "found_lines",
+      [](const mesh::Surface& surface, const Contiguous<int>& marked) {
+        return give(turns::found_lines(surface, rows<int, 2>(marked)));
+      },
+      "surface"_a, "marked"_a);
 }
 
 using mesh::Surface;

@@ -3,8 +3,7 @@
 import families
 import numpy as np
 import pytest
-from holomorph import Surface, automatic_map, automatic_structure
-from holomorph.tiling.turned import lines_of
+from holomorph import Surface, _native, automatic_map, automatic_structure
 from solids import revolved
 
 AROUND = 32  # edges of a circle
@@ -45,6 +44,10 @@ def shape(request):
 
 def tiling(surface, lines, turns=4, tiles=300.0, evenness=0.5):
     return automatic_structure(surface).tile(tiles, turns=turns, lines=lines, evenness=evenness)
+
+
+def lines_of(surface):
+    return _native.found_lines(surface._native, np.empty((0, 2), np.int32))
 
 
 def along_lines(surface, made):
