@@ -59,12 +59,6 @@ class Map(Value):
     _evenness: float = 0.0
 
     @classmethod
-    def of_tiling(cls, surface: Surface, structure: AnyStructure, tiling: Tiling) -> Map:
-        """The map that is a tiling, of `structure.tile`."""
-        why = f"it has no visible seams: size range {tiling.quality.size_range:.3g}"
-        return cls(surface, structure, tiling.uv, tiling.quality, np.empty(0), why, tiling)
-
-    @classmethod
     def of_core(cls, made: _native.Map, surface: Surface, structure: AnyStructure) -> Map:
         """The one that the core made of a connected surface, with its structure for Python."""
         if made.tiling:
