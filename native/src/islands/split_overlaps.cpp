@@ -85,7 +85,7 @@ bool enters(const Points& triangle, Complex start, Complex end) {
 // Segments between two triangles are no more in it: so what is around one vertex costs as little as anything else.
 class Border {
  public:
-  Border(double width, Execution& execution) : width_(width > 0 ? width : 1), execution_(execution) {}
+  explicit Border(double width) : width_(width > 0 ? width : 1) {}
 
   bool has(int edge) const { return live_.contains(edge); }
 
@@ -168,7 +168,6 @@ class Border {
   }
 
   double width_;
-  Execution& execution_;
   std::vector<Segment> segments_;
   std::unordered_map<int, int> live_;  // edge to segment
   std::unordered_map<std::uint64_t, std::vector<int>> squares_;
@@ -221,7 +220,7 @@ class Parts {
   }
 
   void grow(int start, int part, double width) {
-    Border border(width, execution_);
+    Border border(width);
     std::vector<int> queue{start};
     queued_for_[start] = part;
     for (std::size_t next = 0; next < queue.size(); ++next) {

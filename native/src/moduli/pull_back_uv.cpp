@@ -51,7 +51,6 @@ class ContinuedCharts {
   void add(int triangle, const Similarity& frame);
   void grow();
 
-  const mesh::Surface& surface_;
   std::vector<Corners> corners_;
   mesh::HalfEdges links_;
   mesh::Sides sides_;
@@ -84,8 +83,7 @@ double depth(const std::array<Complex, 3>& corner, Complex z) {
 }
 
 ContinuedCharts::ContinuedCharts(const mesh::Surface& surface, std::vector<Corners> corners, Execution& execution)
-    : surface_(surface),
-      corners_(std::move(corners)),
+    : corners_(std::move(corners)),
       links_(mesh::half_edges(surface, execution)),
       sides_(surface),
       place_(surface.triangles.size(), -1) {}
