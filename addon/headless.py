@@ -5,9 +5,10 @@ As a program it does the whole job from the command line, without a window:
 
 blender -b --disable-autoexec [file.blend] --python-exit-code 1 --python addon/headless.py -- [mesh file] --output ...
 
-Ends with 0 if some component got its maps, otherwise with 1 and one sentence on the error stream; with --strict also
-with 3 and one sentence, everything written, where a part was left out or the verdict on a map is poor or unusable; at
-Ctrl-C with 130, what is written being whole. Scripts in a .blend file do not run with --disable-autoexec.
+Ends with 0 if some component got its maps, otherwise with 1, or 2 where the command itself is a mistake, and one
+sentence on the error stream; with --strict also with 3 and one sentence, everything written, where a part was left out
+or the verdict on a map is poor or unusable; at Ctrl-C with 130, what is written being whole. Scripts in a .blend file
+do not run with --disable-autoexec.
 """
 
 import importlib.util

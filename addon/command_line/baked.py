@@ -7,11 +7,11 @@ from .. import native
 from ..baking import bake, write
 from ..baking.channels import BakeOptions
 from ..writing import transaction
-from .options import UsageError
+from .options import Refused
 
 
 def add(options, outcome):
-    """Bakes them, and adds to the report's entries what was baked, to the problems what was not. @throws UsageError"""
+    """Bakes them, and adds to the report's entries what was baked, to the problems what was not. @throws Refused"""
     reasons = {name: bake.why_not(bpy.data.objects[name]) for name in outcome.done}
     outcome.problems += [f"{name}: not baked: {reason}" for name, reason in reasons.items() if reason]
     objects = [bpy.data.objects[name] for name, reason in reasons.items() if not reason]
@@ -24,7 +24,7 @@ def add(options, outcome):
     work = bake.BakeWork(bpy.context, bake.one_of_each_mesh(objects), wanted)
     work.run()
     if work.error:
-        raise UsageError(f"--bake: {native.sentence(work.error)}") from work.error
+        raise Refused(f"--bake: {native.sentence(work.error)}") from work.error
     with transaction.one_step(bpy.context, objects) as step:
         made = write.write(step, work, wanted)
     for entry in made.entries:

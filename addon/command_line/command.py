@@ -20,9 +20,9 @@ from ..results import report, stored
 from ..scene import stored_dials
 from ..writing import transaction
 from . import baked, exchange, preview_scene, sources
-from .options import PROGRAM, UsageError, parse
+from .options import PROGRAM, Refused, UsageError, parse
 
-EXIT_REFUSED, EXIT_STRICT, EXIT_FAULT, EXIT_INTERRUPTED = 1, 3, 70, 130
+EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT, EXIT_FAULT, EXIT_INTERRUPTED = 1, 2, 3, 70, 130
 
 
 class NotFit(Exception):
@@ -35,7 +35,9 @@ def main(arguments, program=PROGRAM):
     try:
         for sentence in process(parse(arguments, program)):
             print(f"Holomorph: {_shown(sentence)}", file=sys.stderr)
-    except (UsageError, OSError, RuntimeError) as error:
+    except UsageError as error:
+        _fail(EXIT_USAGE, error)
+    except (Refused, OSError, RuntimeError) as error:
         # RuntimeError is how Blender's own operators report a file that cannot be written.
         _fail(EXIT_REFUSED, error)
     except NotFit as error:
@@ -64,14 +66,14 @@ def _fail(status, error):
 def process(options):
     """Does the job; returns the sentences about what was not done."""
     if native.problem():
-        raise UsageError(native.problem())
+        raise Refused(native.problem())
     if not hasattr(bpy.types.Object, stored_dials.NAME):  # the add-on is not enabled
         dials.register()
     _check_places(options)
     start = time.perf_counter()
     try:
         outcome = _make_maps(options)
-    except UsageError as error:
+    except Refused as error:
         source = options.mesh.stem if options.mesh is not None else Path(bpy.data.filepath).stem
         _write_report(options, report.run_report([report.refusal_report(source, str(error))]))
         raise
@@ -84,7 +86,7 @@ def process(options):
         _write_files(options, [bpy.data.objects[name] for name in outcome.done] + levels)
     _write_report(options, content)  # last: what it tells of is in the files
     if not outcome.done:
-        raise UsageError("no maps were made: " + "; ".join(outcome.problems))
+        raise Refused("no maps were made: " + "; ".join(outcome.problems))
     told = f"maps written to {', '.join(outcome.done)} in {content['seconds']:.2f} s"
     print(f"Holomorph: {_shown(told)}", flush=True)
     if options.strict:
@@ -93,16 +95,16 @@ def process(options):
 
 
 def _check_places(options):
-    source = options.mesh or (Path(bpy.data.filepath) if bpy.data.filepath else None)
+    sources = [options.mesh or bpy.data.filepath] if options.mesh or bpy.data.filepath else []
     written = [options.render, options.report]
     try:
-        holomorph.files.whole_file.check_places(source, options.output, written, options.overwrite)
+        holomorph.files.whole_file.check_places(sources, options.output, written, options.overwrite)
     except ValueError as error:
         raise UsageError(str(error)) from error
 
 
 def _make_maps(options):
-    """The `report.Outcome`. @throws UsageError"""
+    """The `report.Outcome`. @throws Refused"""
     try:
         runs = [Run(own, found, _own_texture(own)) for own, found in sources.collect(options)]
     except ValueError as error:
@@ -154,13 +156,13 @@ def _write_files(options, objects):
             picture = folder / options.render.name
             preview_scene.render(objects, str(picture), options.resolution, options.samples)
             if not picture.is_file():
-                raise UsageError(f"{options.render}: the picture could not be written")
+                raise Refused(f"{options.render}: the picture could not be written")
     if options.output is not None and not is_blend:
         bpy.data.batch_remove(set(bpy.data.objects) - own)
         try:
             exchange.write(options.output, options.export_forms, options.export_texture)
         except exchange.ExchangeError as error:
-            raise UsageError(str(error)) from error
+            raise Refused(str(error)) from error
 
 
 def _save(path):
@@ -169,7 +171,7 @@ def _save(path):
         try:
             bpy.ops.wm.save_as_mainfile(filepath=str(place), check_existing=False, compress=True, copy=True)
         except RuntimeError as error:
-            raise UsageError(f"{path}: Blender cannot write it: {error}") from error
+            raise Refused(f"{path}: Blender cannot write it: {error}") from error
 
 
 def _check_strictly(entries):

@@ -24,8 +24,12 @@ DIALS = {"seamless": ("main",), "poles": ("poles", "pole_count")}  # of options 
 KINDS = {FloatProperty: float, IntProperty: int, StringProperty: str}
 
 
-class UsageError(Exception):
-    """What the user asked for cannot be done; the text is one sentence."""
+class Refused(Exception):
+    """What was asked for cannot be done; the text is one sentence."""
+
+
+class UsageError(Refused):
+    """The command itself is a mistake: what is named is not there, or options cannot be."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -78,7 +82,6 @@ def parse(arguments, program=PROGRAM):
     options.given = {dial for name in names for dial in DIALS.get(name, (name,))}
     options.warnings = []  # sentences about what was read all the same
     _check_suffixes(options)
-    _check_folders(options.output, options.render, options.report, options.bake)
     _check_values(options)
     _take_over(options)
     return options
@@ -170,13 +173,6 @@ def _check_suffixes(options):
         _refuse_if(wrong, f"--{name}: {path} must end with {' or '.join(suffixes)}")
 
 
-def _check_folders(*files):
-    for path in files:
-        folder = path and Path(os.path.realpath(path)).parent
-        if folder and not folder.is_dir():
-            raise UsageError(f"{path}: the folder {folder} does not exist")
-
-
 def _check_values(options):
     is_ratio = 0 < options.ratio < 1
     _refuse_if(options.levels < 0 or not is_ratio, "--levels cannot be negative, and --ratio must be between 0 and 1")
@@ -196,8 +192,10 @@ def _check_values(options):
     _refuse_if(poles not in ("automatic", "selected") and not is_number, sentence)
     chosen = options.pole or options.rectangle
     _refuse_if(options.seamless and chosen, "--pole and --rectangle cannot be combined with --seamless: use --poles")
-    is_file = options.bake is not None and options.bake.exists() and not options.bake.is_dir()
-    _refuse_if(is_file, f"--bake: {options.bake} is not a folder")
+    if options.bake is not None:
+        place = Path(os.path.realpath(options.bake))
+        _refuse_if(not place.parent.is_dir(), f"{options.bake}: the folder {place.parent} does not exist")
+        _refuse_if(place.exists() and not place.is_dir(), f"--bake: {options.bake} is not a folder")
     is_number = 0 <= options.texels < math.inf and options.bake_margin >= 0
     _refuse_if(not is_number, "--texels and --bake-margin cannot be negative")
     _refuse_if(min(options.resolution, options.samples) < 1, "--resolution and --samples must be at least 1")

@@ -13,7 +13,7 @@ from ..scene import gathering, mesh_io, stored_dials, targets
 from ..solving import jobs
 from . import exchange
 from . import options as options_of
-from .options import UsageError
+from .options import Refused, UsageError
 
 intake = module("mesh.intake")
 SHARP_ANGLE = 0.7  # radians, 40 degrees: sharper edges of an imported mesh stay sharp
@@ -21,9 +21,8 @@ Z_UP_FROM_Y_UP = math.pi / 2  # radians about the x axis, as Blender's own impor
 
 
 def collect(options):
-    """[(options, `targets.Target`s)]: objects that store the same dials have the same. @throws UsageError"""
-    if options.mesh is not None and not options.mesh.is_file():
-        raise UsageError(f"{options.mesh}: no such file")
+    """[(options, `targets.Target`s)]: objects that store the same dials have the same. @throws Refused"""
+    _check_mesh(options.mesh)
     try:
         asked, file = _request(options), _intake(options)
         if file is not None and not file.has_more:
@@ -34,8 +33,21 @@ def collect(options):
             raise UsageError("vertices are chosen on one object: name it with --object")
         bpy.context.view_layer.update()  # the objects' matrices
         return [(own, targets.collect(some, _request(own))) for own, some in _by_dials(options, objects)]
-    except (ValueError, holomorph.Error, exchange.ExchangeError) as error:
+    except ValueError as error:
         raise UsageError(str(error)) from error
+    except (holomorph.Error, exchange.ExchangeError) as error:
+        raise Refused(str(error)) from error
+
+
+def _check_mesh(path):
+    """@throws UsageError where it is that of no mesh file"""
+    if path is None:
+        return
+    if not path.is_file():
+        raise UsageError(f"{path}: there is no such file")
+    known = (*module("files.formats").POLYGONAL, *exchange.SCENES)
+    if path.suffix.lower() not in known:
+        raise UsageError(f"{path}: the file name must end in {', '.join(known[:-1])} or {known[-1]}")
 
 
 def _by_dials(options, objects):
@@ -123,5 +135,5 @@ def _named(options, meshes):
     if options.object:
         meshes = [o for o in meshes if o.name in options.object]
     if not meshes:
-        raise UsageError("there is no mesh object in the scene")
+        raise Refused("there is no mesh object in the scene")
     return meshes

@@ -4,9 +4,7 @@
 import argparse
 import contextlib
 import json
-import os
 import sys
-from pathlib import Path
 
 from . import Error, Surface, Verdict, __version__
 from .batch import mapping, textured
@@ -45,13 +43,14 @@ def main(arguments=None):
     options = _parser().parse_args(arguments)
     try:
         report = None if options.report == STANDARD_OUTPUT else options.report
-        whole_file.check_places(options.mesh, options.output, [report], options.overwrite)
+        formats.check_mesh(options.mesh)
+        whole_file.check_places([options.mesh], options.output, [report], options.overwrite)
         _check_output(options.output, options.texture)
         recipe = _recipe(options)
         found = textured.symmetry(recipe)
         check_options(options.solver, options.threads)
         check_thresholds(options.thresholds, options.solver)
-    except (ValueError, OSError) as error:
+    except (Error, ValueError, OSError) as error:
         return failed(EXIT_USAGE, error)
     try:
         report = mapped(options, textured.resolved(recipe, found), found)
@@ -132,9 +131,6 @@ def _check_output(path, texture):
     name = formats.of_path(path)
     if texture is not None:
         formats.check_texture(name, texture)
-    folder = Path(os.path.realpath(path)).parent
-    if not folder.is_dir():
-        raise ValueError(f"{path}: the folder {folder} does not exist")
 
 
 def _recipe(options):

@@ -427,12 +427,12 @@ def test_the_command_refuses_in_one_sentence(tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=str(blend))
     taken = tmp_path / "taken"
     taken.write_text("")
-    for options, sentence in (
-        (("--bake", taken), "is not a folder"),
-        (("--bake", tmp_path / "images", "--texels", "-1"), "cannot be negative"),
-        (("--bake", tmp_path / "images", "--texels", "0.01"), "an image of 1 texel"),
+    for options, status, sentence in (
+        (("--bake", taken), 2, "is not a folder"),
+        (("--bake", tmp_path / "images", "--texels", "-1"), 2, "cannot be negative"),
+        (("--bake", tmp_path / "images", "--texels", "0.01"), 1, "an image of 1 texel"),
     ):
-        assert sentence in refusal("--seamless", *options, blend=blend)
+        assert sentence in refusal("--seamless", *options, blend=blend, status=status)
 
 
 def test_a_part_that_unfolds_keeps_its_flat_islands():

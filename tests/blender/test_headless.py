@@ -88,10 +88,12 @@ def unknown_format(folder):
     return path
 
 
-@pytest.mark.parametrize("make", [file_without_area, broken_file, directory, unknown_format])
-def test_a_file_that_cannot_be_done(make, tmp_path):
+@pytest.mark.parametrize(
+    ("make", "status"), [(file_without_area, 1), (broken_file, 1), (directory, 2), (unknown_format, 2)]
+)
+def test_a_file_that_cannot_be_done(make, status, tmp_path):
     blend = tmp_path / "out.blend"
-    assert refusal(make(tmp_path), "--output", blend)
+    assert refusal(make(tmp_path), "--output", blend, status=status)
     assert not blend.exists()
 
 
@@ -128,7 +130,7 @@ def test_the_context_belongs_to_no_scene_after_the_command(torus_file, tmp_path)
 
 def test_a_usage_error_of_a_program_of_its_own():
     done = headless("--bogus")
-    assert done.returncode == 1
+    assert done.returncode == 2
     assert len(our_lines(done)) == 1 and "bogus" in our_lines(done)[0]
     assert "Traceback" not in done.stderr + done.stdout
 
@@ -158,7 +160,7 @@ def test_the_picture_is_written_under_the_given_name_or_its_absence_is_said(toru
     assert picture.read_bytes()[:4] == b"\x89PNG"
     (tmp_path / "folder.png").mkdir()
     done = headless(torus_file, "--render", tmp_path / "folder.png", *small)
-    assert done.returncode == 1 and "Traceback" not in done.stderr + done.stdout
+    assert done.returncode == 2 and "Traceback" not in done.stderr + done.stdout
 
 
 def test_a_file_saved_in_edit_mode_and_without_an_active_object(tmp_path):
@@ -176,7 +178,7 @@ def test_a_file_saved_in_edit_mode_and_without_an_active_object(tmp_path):
 def test_a_blend_file_without_a_mesh(tmp_path):
     path = tmp_path / "nothing.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
-    assert "no mesh object" in refusal(blend=path)
+    assert "no mesh object" in refusal(blend=path, status=1)
 
 
 def grid_file(folder, count=12):

@@ -41,16 +41,16 @@ def headless(*arguments, blend="", seconds=SECONDS):
     return subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False)
 
 
-def refusal(*arguments, blend=""):
-    """The sentence with which the command ends, with status 1, when it is run in this Blender: to start another one
-    takes a second."""
+def refusal(*arguments, blend="", status=2):
+    """The sentence with which the command ends, for a mistake in it with status 2, when it is run in this Blender: to
+    start another one takes a second."""
     if blend:
         bpy.ops.wm.open_mainfile(filepath=str(blend))
     said, told = io.StringIO(), io.StringIO()
     with contextlib.redirect_stderr(said), contextlib.redirect_stdout(told), pytest.raises(SystemExit) as end:
         module("command_line.command").main([str(argument) for argument in arguments])
     (line,) = said.getvalue().splitlines()
-    assert (end.value.code, told.getvalue()) == (1, "") and line.startswith("Holomorph: ")
+    assert (end.value.code, told.getvalue()) == (status, "") and line.startswith("Holomorph: ")
     return line
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from ..files import formats
 from .errors import UsageError
 
-MESHES = (".obj", ".off", ".ply", ".stl", ".3mf")
+MESHES = (*formats.POLYGONAL, ".3mf")
 SCENES = tuple(formats.IMPORTERS)
 LIST = ".txt"  # one path or pattern per line, from the list's own folder on; lines with # are comments
 KINDS = f"a folder, a pattern, a list ({LIST}), a scene ({', '.join(SCENES)}) or a mesh file ({', '.join(MESHES)})"

@@ -4,13 +4,12 @@ import json
 
 from .. import Error, Surface
 from ..core.value import plain
-from ..files import whole_file
-from ..files.formats import KINDS
+from ..files import formats, whole_file
 from ..moduli.equivalence import VERDICTS, conformally_equivalent
 from .console import Parser, failed, tell, warn
 
 EXIT_CODES = dict(zip(VERDICTS, (0, 6, 3, 4, 5), strict=True))
-"""The exit code of each verdict. 1: not compared, one sentence says why; 2: the command was misspelled."""
+"""The exit code of each verdict. 1: not compared, one sentence says why; 2: invalid options, or no such file."""
 
 
 def compare(arguments):
@@ -19,11 +18,17 @@ def compare(arguments):
     parser = Parser(
         "compare",
         description="Decide whether there is a conformal map between two surfaces.",
-        epilog=f"Exit code: {codes}; 1 where a file cannot be compared.",
+        epilog=f"Exit code: {codes}; 1 where a file cannot be compared, 2 for a mistake in the command.",
     )
-    parser.add_argument("meshes", nargs=2, metavar="mesh", help=f"{KINDS} file of one connected surface")
+    parser.add_argument("meshes", nargs=2, metavar="mesh", help=f"{formats.KINDS} file of one connected surface")
     parser.add_argument("--report", metavar="FILE", help="write verdict, integer matrix and distances as JSON")
     options = parser.parse_args(arguments)
+    try:
+        for mesh in options.meshes:
+            formats.check_mesh(mesh)
+        whole_file.check_places(options.meshes, None, [options.report], overwrite=False)
+    except (Error, ValueError, OSError) as error:
+        return failed(2, error)
     try:
         made = conformally_equivalent(*map(_surface, options.meshes))
         if options.report:

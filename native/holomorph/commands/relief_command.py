@@ -6,8 +6,7 @@ import numpy as np
 
 from .. import Error, InvalidMesh, Map, Surface, TopologyError, automatic_maps
 from ..core.value import rounded
-from ..files import printing, whole_file
-from ..files.formats import KINDS
+from ..files import formats, printing, whole_file
 from ..mesh.checks import check_options, real_number
 from ..tiles.height_image import height_image
 from ..tiles.relief import LEAST_PART, check_choices, checked_depth, checked_heights, joined, plain, stretched_sentence
@@ -30,9 +29,11 @@ def relief(arguments):
         if options.tiles is not None:
             real_number(options.tiles, "tiles", positive=True)
         printing.of_path(options.output)
-        whole_file.check_places(options.mesh, options.output, [], options.overwrite)
+        formats.check_mesh(options.mesh)
+        whole_file.require_file(options.heights)
+        whole_file.check_places([options.mesh], options.output, [], options.overwrite)
         check_options("auto", options.threads)
-    except (ValueError, OSError) as error:
+    except (Error, ValueError, OSError) as error:
         return failed(EXIT_USAGE, error)
     try:
         made, told, faults = _made(options, depth)
@@ -51,7 +52,7 @@ def _parser():
         epilog="Exit status: 1 if nothing was done (a message says why), 2 for a mistake in the command, 3 with "
         "--strict.",
     )
-    parser.add_argument("mesh", help=f"{KINDS} file")
+    parser.add_argument("mesh", help=f"{formats.KINDS} file")
     parser.add_argument("heights", metavar="image", help="picture whose white is raised; it repeats in every tile")
     parser.add_argument("--output", metavar="FILE", required=True, help="file to write: .3mf, .stl or .obj")
     parser.add_argument(

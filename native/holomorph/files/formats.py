@@ -1,13 +1,14 @@
 """Meshes with UVs as files. Every writer gives bytes, the same for the same mesh on every run."""
 
 import io
+import os
 from pathlib import Path
 
 import numpy as np
 
 from .._native import InvalidMesh
 from ..core import arrays
-from . import gltf, textures, whole_file
+from . import gltf, scenes, textures, whole_file
 
 
 def write(surface, path, uv=None, texture=None):
@@ -50,6 +51,19 @@ def of_path(path):
         wanted = f"{', '.join(endings[:-1])} or {endings[-1]}"
         raise ValueError(f"{path} must end with {wanted}")
     return name
+
+
+def check_mesh(path):
+    """@throws InvalidMesh, OSError where a path is that of no mesh file, whatever the file holds"""
+    require_reader(path)
+    whole_file.require_file(path)
+
+
+def require_reader(path):
+    """@throws InvalidMesh for a path that does not end as those of mesh files"""
+    name = os.fsdecode(path)
+    if Path(name).suffix.lower() not in READERS:
+        raise InvalidMesh(f"{name}: the file name must end in {', '.join(READERS[:-1])} or {READERS[-1]}")
 
 
 def npz(surface, arrays):
@@ -96,6 +110,8 @@ def glb(surface, uv=None, image=None):
 
 
 KINDS = "OBJ, OFF, PLY, STL, glTF or 3MF"  # of the files that `Surface.read` reads
+POLYGONAL = (".obj", ".off", ".ply", ".stl")  # those of one mesh of polygons, which the native part reads
+READERS = (*POLYGONAL, *scenes.KINDS)
 WRITERS = {"obj": obj, "ply": ply, "glb": glb}
 TEXTURED = ("glb",)
 

@@ -41,31 +41,46 @@ def read(path, most=None):
     Raises OSError that names the path."""
     with _naming(path), open(os.fspath(path), "rb", opener=_without_waiting) as file:
         state = os.fstat(file.fileno())
-        if not stat.S_ISREG(state.st_mode):
-            raise OSError(errno.EINVAL, "this is not a file but a folder, a pipe or a device")
+        _require_file(state)
         if most is not None and state.st_size > most:
             raise OSError(errno.EFBIG, f"it has {state.st_size:,} bytes; at most {most:,} are read")
         return file.read()
+
+
+def require_file(path):
+    """Raises OSError that names the path, where it is that of no file: before any work, to tell what was misspelled."""
+    with _naming(path):
+        _require_file(os.stat(path))
+
+
+def _require_file(state):
+    if not stat.S_ISREG(state.st_mode):
+        raise OSError(errno.EINVAL, "this is not a file but a folder, a pipe or a device")
 
 
 def _without_waiting(path, flags):
     return os.open(path, flags | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
 
 
-def check_places(source, output, others, overwrite):
-    """Checks, before any work, that no file of a run is written over another one.
+def check_places(sources, output, others, overwrite):
+    """Checks, before any work, that files can be where they will be written, and none is written over another one.
 
-    source : the file that is read; output : None or where the result goes, which may be the source where `overwrite` is
-        true; others : paths of other files that are written, None for none
+    sources : the files that are read; output : None or where the result goes, which may be a source where `overwrite`
+        is true; others : paths of other files that are written, None for none
 
     Raises ValueError."""
-    read, new, *more = (None if path is None else _place(path) for path in (source, output, *others))
-    if new is not None and new == read and not overwrite:
+    read = {_place(path) for path in sources}
+    if output is not None and _place(output) in read and not overwrite:
         raise ValueError(f"{output} is the input file: use --overwrite to replace it")
-    taken = {read, new}
-    for path, place in zip(others, more):
-        if place is not None and place in taken:
+    taken = read - {output and _place(output)}
+    for path in filter(None, (output, *others)):
+        place = _place(path)
+        if place in taken:
             raise ValueError(f"{path} is used twice in this run and would be overwritten")
+        if not place.parent.is_dir():
+            raise ValueError(f"{path}: the folder {place.parent} does not exist")
+        if place.is_dir():
+            raise ValueError(f"{path} is a folder: the name of a file is needed")
         taken.add(place)
 
 

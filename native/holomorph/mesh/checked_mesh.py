@@ -4,15 +4,16 @@ known by the names of their arrays; none of these packages is imported.
 
 from __future__ import annotations
 
+import contextlib
 import os
 
 import numpy as np
 
 from .. import _native
-from .._native import InvalidMesh
+from .._native import Error, InvalidMesh
 from ..core import arrays
 from ..core.value import quoted
-from ..files import scenes
+from ..files import formats, scenes
 from .origin import AS_GIVEN, Origin
 
 POLYGONS = ("triangle", "quad", "polygon")  # of meshio, whose other cells are points, lines, solids or curved
@@ -39,16 +40,29 @@ def of_file(path, strict, weld, up):
     """Makes one of the arguments of `Surface.read`."""
     if up not in (None, "Y", "Z"):
         raise ValueError(f'up is {quoted(up)}; "Y" or "Z" is needed')
+    formats.require_reader(path)
     if scene := scenes.kind(path):
-        surface, origin = _of(*scenes.read(path, weld or strict), strict)
+        polygons = scenes.read(path, weld or strict)
+        with _naming(path):
+            surface, origin = _of(*polygons, strict)
         return surface, origin._replace(up=up or scene.UP)
     return of_read(_native.FileMesh.read(os.fspath(path), weld), path, strict, up)
 
 
 def of_read(file, path, strict, up):
     """Makes one of a native `FileMesh`, from which its arrays are then gone."""
-    part = file.surface(strict)
+    with _naming(path):
+        part = file.surface(strict)
     return part.surface, Origin.of_part(part, up or ("Y" if str(path).lower().endswith(".obj") else "Z"))
+
+
+@contextlib.contextmanager
+def _naming(path):
+    """What a file holds may be refused once it is read: its path is told then, too."""
+    try:
+        yield
+    except Error as error:
+        raise type(error)(f"{os.fsdecode(path)}: {error}") from error
 
 
 def _of(vertices, corner_vertices, face_offsets, strict):

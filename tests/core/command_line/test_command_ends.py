@@ -104,14 +104,14 @@ def test_closed_outputs(mesh, tmp_path):
     assert subprocess.run(command, preexec_fn=close_outputs).returncode == 0
     assert files[0].read_text().startswith("v ") and files[1].read_text().startswith("{")
     command[3] = tmp_path / "nowhere.obj"
-    assert subprocess.run(command, preexec_fn=close_outputs).returncode == 1
+    assert subprocess.run(command, preexec_fn=close_outputs).returncode == 2
 
 
 @pytest.mark.parametrize("stream", ["/dev/full", "/dev/null"])
 def test_an_error_stream_that_cannot_be_written(stream, mesh, tmp_path):
     """The status is that of the job, and that of options that are misspelled."""
     with open(stream, "w") as full:
-        for arguments, status in (((mesh, "--report", tmp_path / "r.json"), 0), (("nowhere.obj",), 1), (("--no",), 2)):
+        for arguments, status in (((mesh, "--report", tmp_path / "r.json"), 0), (("nowhere.obj",), 2), (("--no",), 2)):
             command = [sys.executable, "-m", "holomorph", *map(str, arguments)]
             assert subprocess.run(command, stderr=full).returncode == status
 

@@ -157,12 +157,12 @@ BAD = {
     "depth above the mesh": (dict(depth="10m"), 1, "more than the size of the whole mesh"),
     "ending": (dict(output="part.txt"), 2, "must end with .stl, .3mf or .obj"),
     "own mesh": (dict(output="torus.obj"), 2, "--overwrite"),
-    "no mesh": (dict(mesh="none.obj"), 1, "none.obj"),
-    "no image": (dict(image="none.png"), 1, "none.png"),
+    "no mesh": (dict(mesh="none.obj"), 2, "none.obj"),
+    "no image": (dict(image="none.png"), 2, "none.png"),
     "mesh for an image": (dict(image="torus.obj"), 1, "not a readable picture"),
     "one pixel": (dict(image="pixel.png"), 1, "the height 0.0275 everywhere"),
     "half an image": (dict(image="half.png"), 1, "not a readable picture"),
-    "no such folder": (dict(output="none/part.stl"), 1, "No such file or directory"),
+    "no such folder": (dict(output="none/part.stl"), 2, "does not exist"),
 }
 
 

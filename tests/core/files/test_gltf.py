@@ -176,11 +176,12 @@ def test_command_puts_the_texture_on_the_map(cube, tmp_path):
     (["--output", "out.glb", "--texture", "absent.png"], "absent.png"),
     (["--texture", "checker"], "--texture needs --output"),
 ])  # fmt: skip
-def test_command_refuses_textures_before_it_reads(options, told, tmp_path, capsys, monkeypatch):
+def test_command_refuses_textures_before_it_reads(options, told, cube, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert main(["absent.obj", *options]) == 2
+    monkeypatch.setattr(Surface, "read", None)
+    assert main([str(cube), *options]) == 2
     said = capsys.readouterr().err
-    assert told in said and len(said.splitlines()) == 1 and not list(tmp_path.iterdir())
+    assert told in said and len(said.splitlines()) == 1 and not {*tmp_path.iterdir()} - {cube}
 
 
 def ball(folder, mesh):

@@ -125,12 +125,14 @@ def test_no_file_is_moved_after_an_error(old):
         ("./in.obj", [], False, "in.obj is the input file: use --overwrite to replace it"),
         ("new.obj", ["in.obj"], True, "in.obj is used twice in this run"),
         ("new.obj", ["folder/../new.obj"], True, "new.obj is used twice in this run"),
+        ("folder/new.obj", [], False, "the folder .*folder does not exist"),
+        ("new.obj", ["."], False, ". is a folder"),
     ],
 )
 def test_no_file_of_a_run_is_written_over(output, others, overwrite, problem, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     with nullcontext() if problem is None else pytest.raises(ValueError, match=problem):
-        whole_file.check_places("in.obj", output, others, overwrite)
+        whole_file.check_places(["in.obj"], output, others, overwrite)
 
 
 def test_the_command_keeps_its_mesh(tmp_path):
