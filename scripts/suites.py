@@ -11,7 +11,7 @@ BLENDER = os.environ.get("HOLOMORPH_BLENDER") or "blender"
 # The longest ones first, so that two at a time end together.
 DEFAULT = ["lint", "native", "blender-3.4", "core", "package", "bpy-5.2", "window", "batch"]
 ALL = ["injection", "lint", "native", "blender-3.4", "core", "package", "batch", "asan", "site", "window", "fuzz"]
-ALL += ["window-new", "tsan", "bpy-5.2", "bpy-5.0", "bpy-4.5", "bpy-4.2"]
+ALL += ["window-new", "window-sid", "tsan", "bpy-5.2", "bpy-5.0", "bpy-4.5", "bpy-4.2"]
 ON_DEMAND = ["mutate", "platforms"]  # they compile for an hour
 # The part of tests/core that runs under the sanitizers, several times slower: every kind of surface and every solver
 # once, on small meshes; tilings and what is made of them, islands, evening; malformed files; cancelling in the middle;
@@ -105,13 +105,19 @@ def bpy(version, python):
     )
 
 
-def window_in(name, debian, blender, python):
+def window_in(name, debian, blender, compiled_for="", **options):
+    """A Python that this machine has not needs a wheel of its own."""
+    commands, variables = [], {"HOLOMORPH_BLENDER": ROOT / "scripts" / "debian-blender", "HOLOMORPH_DEBIAN": debian}
+    if compiled_for:
+        variables["HOLOMORPH_DIST"] = BUILD / "platforms" / debian
+        wheel = 'rm -rf "$2"; scripts/build-wheel linux-x64 "$1" "$2/wheels"'
+        make = f'{wheel}; python3 scripts/make-zips.py "$2" "$2/wheels/"*'
+        commands = [["bash", "-euc", make, "-", compiled_for, variables["HOLOMORPH_DIST"]]]
     return Suite(
         f"The same in Blender {blender}, of Debian {debian}, with the extension installed from its zip.",
-        [pytest(name, "tests/window", HOLOMORPH_BLENDER=ROOT / "scripts" / "debian-blender", HOLOMORPH_DEBIAN=debian)],
-        environment=f"make_test_venv; make_debian {debian}",
-        python=python,
+        [*commands, pytest(name, "tests/window", **variables)],
         debian=debian,
+        **options,
     )
 
 
@@ -177,7 +183,8 @@ SUITES = {
         [pytest("window", "tests/window")],
         blender="needed",
     ),
-    "window-new": window_in("window-new", "trixie", "4.3", "3.13"),
+    "window-new": window_in("window-new", "trixie", "4.3", python="3.13"),
+    "window-sid": window_in("window-sid", "sid", "5.2", compiled_for="3.14", times=2),
     "site": Suite(
         "scripts/site, and tests/site: its pages in Chromium, the gallery, plots by PyVista, a notebook.",
         [["scripts/site"], pytest("site", "tests/site", venv="site-test-cp311")],

@@ -52,6 +52,12 @@ def tap(kind, **keys):
     event(kind, "RELEASE", **keys)
 
 
+def close_popup():
+    """A message or a menu, if one is there: Blender 5 keeps it when the pointer leaves it."""
+    tap("ESC")
+    yield 0.25
+
+
 def undo(again=False):
     """By the keys, with the pointer over the 3D view; or what was undone is done again."""
     hover(area("VIEW_3D"))
@@ -68,9 +74,13 @@ def inside(owner):
     return bpy.context.temp_override(window=window(), area=owner, region=region(owner, "WINDOW"))
 
 
+def draw():
+    bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
+
+
 def picture(name):
     """The display, which the window fills: pictures that Blender takes itself are black in some versions."""
-    bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
+    draw()
     subprocess.run(["import", "-window", "root", str(FOLDER / name)], check=True)
 
 

@@ -1,7 +1,7 @@
 """The add-on's tab in a sidebar, and its buttons."""
 
 import bpy
-from screen import area, click, event, move, region
+from screen import area, click, draw, event, move, region
 
 TABS_STEP = 30  # pixels; a tab is longer
 BUTTONS = {"presets": 16, "maps": 51, "drag": 197}  # pixels below the top of the sidebar
@@ -32,8 +32,8 @@ def open_tab(kind, seen):
     for height in range(40, sidebar.height, TABS_STEP):
         before = drawn[kind]
         click(sidebar.x + sidebar.width - 8, sidebar.y + height)
-        sidebar.tag_redraw()
         yield 0.1
+        draw()  # now: in Blender 5, a second click at a tab closes the sidebar
         if drawn[kind] > before:
             seen[f"tab in {kind}"] = True
             return

@@ -5,18 +5,24 @@ import bpy
 from artist import prepare, press, report_of, seen, then
 from objects import figure, look_at, pipe, terrain
 from running import run
-from screen import area, inside, picture
+from screen import area, close_popup, inside, picture
 from sidebar import press_button
+
+
+def press_in_vain(step, name):
+    """The large button, which says why not."""
+    look_at(name)
+    yield 0.25
+    yield from press_button("VIEW_3D")
+    yield 0.5
+    seen[step] = report_of(name)
+    picture(f"five_{step}.png")
+    yield from close_popup()
 
 
 def figure_of_bones():
     figure("Figure")
-    look_at("Figure")
-    yield 0.25
-    yield from press_button("VIEW_3D")
-    yield 0.5
-    seen["figure"] = report_of("Figure")
-    picture("five_figure.png")
+    yield from press_in_vain("figure", "Figure")
     yield from then("figure mapped", "Figure Mapped", bpy.ops.uv.holomorphic_maps, on="Figure", modifiers=True)
 
 
@@ -32,12 +38,7 @@ def letters():
         bpy.ops.object.text_add()
         words = bpy.context.object.data
         words.body, words.extrude = "Mesh", 0.1
-    look_at("Text")
-    yield 0.25
-    yield from press_button("VIEW_3D")
-    yield 0.5
-    picture("five_text.png")
-    seen["text"] = report_of("Text")
+    yield from press_in_vain("text", "Text")
     with inside(area("VIEW_3D")):
         bpy.ops.object.convert(target="MESH")
     yield from press("text as mesh", "Text")

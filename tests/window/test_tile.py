@@ -3,7 +3,8 @@
 import pytest
 
 PICTURES = ["tiled.png", "tile_redo_panel.png", "tile_presets.png", "tile_preset.png"]
-PICTURES += ["drag_hovered.png", "drag_followed.png", "drag_kept.png", "drag_other_dials.png", "drag_loaded.png"]
+PICTURES += [f"drag_{step}_{key}.png" for step in ("hovered", "followed") for key in ("ESC", "RET")]
+PICTURES += ["drag_kept.png", "drag_other_dials.png", "drag_loaded.png"]
 
 
 def test_the_button_tiles_in_the_background(seen):

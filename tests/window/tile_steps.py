@@ -9,12 +9,12 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from enabled import addon
 from objects import clear, part_report, pick, torus
 from running import run, wait_until
-from screen import FOLDER, area, click, enter, event, hover, inside, move, picture, region, tap, undo
+from screen import FOLDER, area, click, close_popup, enter, event, inside, move, picture, region, tap, undo
 from sidebar import open_sidebar, press_button
 
 seen = {}
 NAME = "Ring"
-WOOD = 202  # pixels below the top of the sidebar, of the preset
+PLANKS = 202  # pixels below the top of the sidebar, of the preset
 
 
 def obj():
@@ -93,10 +93,9 @@ def redo_panel():
     yield 0.12
     stages = note_stages()
     sidebar = region(area("VIEW_3D"), "UI")
-    click(sidebar.x + 150, sidebar.y + sidebar.height - WOOD)
+    click(sidebar.x + 150, sidebar.y + sidebar.height - PLANKS)
     yield from wait_until(lambda: json.loads(obj()["holomorph_report"])["dials"]["texture"] == "PLANKS")
-    hover(area("VIEW_3D"))  # what it was chosen in closes when the pointer has left
-    yield 0.25
+    yield from close_popup()
     seen["stages of the preset"] = sorted(set(stages))
     seen["texture after the preset"] = json.loads(obj()["holomorph_report"])["dials"]["texture"]
     picture("tile_preset.png")
@@ -108,13 +107,13 @@ def visible_pole():
     return int(np.argmax(points[:, 2]))
 
 
-def drag_by_hand(pole, place):
+def drag_by_hand(pole, place, key):
     """Presses the button, then takes the pole to a vertex and lets it go there. Seconds until the texture follows."""
     yield from press_button("VIEW_3D", "drag", 0.7)
     yield 0.12
     move(*on_screen(poles()[pole]))
     yield 0.12
-    picture("drag_hovered.png")
+    picture(f"drag_hovered_{key}.png")
     yield 0.12
     before = uv()
     event("LEFTMOUSE", "PRESS")
@@ -124,7 +123,7 @@ def drag_by_hand(pole, place):
     yield from wait_until(lambda: not np.array_equal(uv(), before))
     seen["seconds until the texture follows"] = time.perf_counter() - start
     yield 0.25
-    picture("drag_followed.png")
+    picture(f"drag_followed_{key}.png")
     event("LEFTMOUSE", "RELEASE")
     yield 0.1
 
@@ -137,7 +136,7 @@ def dragging():
     points = addon("scene.mesh_io").world_points(obj())
     place = int(np.argmin(np.linalg.norm(points - (0, -1.0, 0.4), axis=1)))
     for key in ("ESC", "RET"):
-        yield from drag_by_hand(pole, place)
+        yield from drag_by_hand(pole, place, key)
         seen[f"map changed before {key}"] = not np.array_equal(uv(), before)
         tap(key)
         yield 0.25

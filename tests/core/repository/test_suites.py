@@ -123,6 +123,18 @@ def test_what_cannot_run_is_skipped(program, run, monkeypatch):
     assert run(python("exit(1)"), debian="trixie") == (0, 0, 1, [])
 
 
+def test_a_debian_that_cannot_be_installed_is_skipped(program, run, monkeypatch, capsys):
+    monkeypatch.setattr(program.shutil, "which", lambda name: name)
+    monkeypatch.setattr(program.os, "geteuid", lambda: 0)
+    monkeypatch.setattr(
+        program.subprocess,
+        "run",
+        lambda command, **_: subprocess.CompletedProcess(command, 0 if command[0] == "unshare" else 1),
+    )
+    assert run(python("exit(1)"), debian="woody") == (0, 0, 1, [])
+    assert capsys.readouterr().out == "small: skipped, Debian woody cannot be installed in a folder now\n"
+
+
 def test_all_suites_have_a_row(program):
     rows = set(program.SUITES)
     assert set(program.DEFAULT) < set(program.ALL) == rows - set(program.ON_DEMAND)

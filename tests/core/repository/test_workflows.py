@@ -26,7 +26,7 @@ def job(name):
 
 
 def named(name):
-    return re.search(r"suite: \[(.*)\]", job(name))[1].split(", ")
+    return re.split(r",\s+", re.search(r"suite: \[([^]]*)\]", job(name))[1])
 
 
 def test_suites_exist_and_each_runs_every_week(suites):
