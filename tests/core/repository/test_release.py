@@ -105,7 +105,11 @@ def test_the_steps_say_what_is_to_fill_in_and_what_was_not_made(release, copy):
     said = list(release.steps(VERSION, copy, release.PLATFORMS))
     assert "fill in Documentation, Download" in said[0] and not [step for step in said if "Not made" in step]
     fill(copy, known(release.written.NAMES))
-    said = list(release.steps(VERSION, copy, ["linux-x64", "windows-x64"]))
+    for name in ("linux_x64", "windows_x64", "blender-3.4"):
+        (copy / f"holomorph-{VERSION}-{name}.zip").touch()
+    made = release.made_in(copy, release.PLATFORMS)
+    assert made == ["windows-x64", "linux-x64"]
+    said = list(release.steps(VERSION, copy, made))
     assert [step.split(".")[0] for step in said[:3]] == [
         f"Not made here: {name}" for name in ("macos-arm64", "macos-x64", "linux-arm64")
     ]
