@@ -105,7 +105,7 @@ def tilings():
         made = structure.tile(evenness=0.5, direction="upright")
         seconds = time.process_time() - begin
         quality = made.quality
-        low, high = holomorph.distortion.quantiles(quality.area, quality.weights, (0.01, 0.99))
+        low, high = np.quantile(quality.area, (0.01, 0.99), weights=quality.weights, method="inverted_cdf")
         even = structure.tile(evenness=1, direction="upright").quality.density_ratio
         figures = f"{quality.density_ratio:.1f} | {high / low:.1f} | {quality.mean_angle:.2f} | {even:.1f}"
         print(f"{file} | {len(structure.surface.triangles)} | {len(made.poles)} | {figures} | {seconds:.1f}")

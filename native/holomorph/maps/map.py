@@ -20,7 +20,7 @@ from ..mesh.checks import check_type, checked_coefficients, checked_evenness
 from ..mesh.folds import folds
 from ..mesh.surface import Surface
 from ..quality.appearance import CONE, HARD_SEAM, POLE, SEAM, cost
-from ..quality.distortion import WorstPlace, drawn_densities, worst_places
+from ..quality.distortion import WorstPlace, drawn_density, worst_places
 from ..quality.quality import Quality
 from ..quality.verdicts import Seen, Verdict, verdict
 from ..tiles.tiled_surface import TiledSurface
@@ -197,23 +197,12 @@ class Map(Value):
             raise TopologyError(f'the map is not a tiling: its kind is {self.kind!r}; main="seamless" makes one')
         return TiledSurface(self.surface, self.uv, self.tiling.lattice, turns=self.turns)
 
-    @property
-    def density(self) -> float:
-        """UV area per area of the surface, the median by that over the triangles that are drawn: tiles of a tiling."""
-        return self._drawn[1]
-
-    @property
-    def drawn_range(self) -> float:
-        """The size range over the triangles that are drawn: root of the 95 % over 5 % quantile of their density."""
-        low, _, high = self._drawn
-        return math.sqrt(high / low) if low > 0 else math.inf
-
     @cached_property
-    def _drawn(self):
-        """The quantiles of the density. An intrinsic surface is not drawn."""
-        if self.surface.vertices is not None:
-            return drawn_densities(self.surface, self.uv)
-        return 1.0, self.quality.median_density, self.quality.density_ratio
+    def density(self) -> float:
+        """UV area per area of the surface, the median by that over the triangles that are drawn: tiles of a tiling.
+        An intrinsic surface is not drawn."""
+        drawn = self.surface.vertices is not None
+        return drawn_density(self.surface, self.uv) if drawn else self.quality.median_density
 
     @cached_property
     def worst_places(self) -> dict[str, WorstPlace]:

@@ -99,12 +99,11 @@ def worst_places(mesh: Polygons, uv: Reals, poles: Integers) -> dict[str, WorstP
     return places
 
 
-def drawn_densities(mesh: Polygons, uv: Reals) -> tuple[float, float, float]:
-    """UV area per surface area: its 5 %, 50 % and 95 % quantile by area over the triangles that are drawn; 0 where
-    there is no area."""
-    return _native.drawn_densities(*_arrays(mesh), uv)
+def drawn_density(mesh: Polygons, uv: Reals) -> float:
+    """UV area per surface area: the median by area over the triangles that are drawn; 0 where there is no area."""
+    return _native.drawn_density(*_arrays(mesh), uv)
 
 
 def length_ratio(mesh: Polygons, uv: Reals) -> float:
     """UV length for a length on the surface, where the density is the median one; 0 where there is no area."""
-    return drawn_densities(mesh, uv)[1] ** 0.5
+    return drawn_density(mesh, uv) ** 0.5

@@ -88,13 +88,10 @@ Distortion distortion(const Contiguous<double>& vertices, const Contiguous<int>&
   return unlocked(1, [&](Workers& workers) { return uv::distortion(drawn, corners(uv), up_axis(up), workers); });
 }
 
-std::tuple<double, double, double> drawn_densities(const Contiguous<double>& vertices,
-                                                   const Contiguous<int>& corner_vertices,
-                                                   const Contiguous<int>& face_offsets, const Contiguous<double>& uv) {
+double drawn_density(const Contiguous<double>& vertices, const Contiguous<int>& corner_vertices,
+                     const Contiguous<int>& face_offsets, const Contiguous<double>& uv) {
   const mesh::Polygons drawn = polygons(vertices, corner_vertices, face_offsets, uv);
-  const auto [low, median, high] =
-      unlocked(1, [&](Workers& workers) { return uv::drawn_densities(drawn, corners(uv), workers); });
-  return {low, median, high};
+  return unlocked(1, [&](Workers& workers) { return uv::drawn_densities(drawn, corners(uv), workers).median; });
 }
 
 double overlapping_part(const Contiguous<std::complex<double>>& curve, const py::object& progress) {
@@ -166,7 +163,7 @@ void bind_quality(py::module_& m) {
   m.def("joined", &joined, "qualities"_a, "densities"_a);
   m.def("direction", &direction, "surface"_a, "uv"_a, "up"_a, "turns"_a);
   m.def("distortion", &distortion, "vertices"_a, "corner_vertices"_a, "face_offsets"_a, "uv"_a, "up"_a);
-  m.def("drawn_densities", &drawn_densities, "vertices"_a, "corner_vertices"_a, "face_offsets"_a, "uv"_a);
+  m.def("drawn_density", &drawn_density, "vertices"_a, "corner_vertices"_a, "face_offsets"_a, "uv"_a);
   m.def("overlapping_part", &overlapping_part, "curve"_a, "progress"_a);
   m.def(
       "cost_of_squares",

@@ -8,7 +8,7 @@ from families import cylinder, geodesic_sphere, torus, united
 from holomorph import arrangement, automatic_maps, automatic_structure, form_map
 from holomorph.maps.arrangement import Arrangement, arranged, arranged_form, on_grid, square, unit_length
 from holomorph.maps.map import SCATTERED
-from holomorph.quality.distortion import drawn_densities
+from holomorph.quality.distortion import drawn_density
 from solved import surface_of
 
 PARTS = {
@@ -62,7 +62,7 @@ def test_maps_are_moved_and_scaled_alone(mesh):
 
 
 def test_all_maps_have_one_median_density(mesh):
-    found = [drawn_densities(made.surface, uv)[1] for made, uv in laid(mesh)]
+    found = [drawn_density(made.surface, uv) for made, uv in laid(mesh)]
     tilings = [made for made, _ in laid(mesh) if made.tiling]
     assert max(found) <= (1.2 if len(tilings) > 1 else 1 + 1e-5) * min(found)  # whole tiles: a tenth either way
 
@@ -91,7 +91,7 @@ def test_a_unit_has_the_length_that_is_told(mesh):
     densities = [made.density for made, _ in parts if made.tiling]
     if not densities:
         largest, uv = max(parts, key=lambda pair: arrangement.diagonal(pair[0].surface))
-        densities = [drawn_densities(largest.surface, uv)[1]]
+        densities = [drawn_density(largest.surface, uv)]
     assert told == pytest.approx(np.median(densities) ** -0.5, rel=1e-6)
 
 

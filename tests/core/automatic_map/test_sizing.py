@@ -8,7 +8,7 @@ from holomorph.maps.arrangement import arranged
 from holomorph.maps.map_objects import map_objects
 from holomorph.maps.request import Request
 from holomorph.maps.size import TOLERANCE, SizePolicy
-from holomorph.quality.distortion import drawn_densities
+from holomorph.quality.distortion import drawn_density
 from solved import surface_of
 
 LIKE = 1.1  # largest over smallest median density of parts whose squares have one size
@@ -31,7 +31,7 @@ def test_all_parts_have_one_size(main, options):
     parts += [Surface.from_polygons(k * b.vertices, b.corners, b.offsets) for k, b in zip((0.3, 0.6, 1.1), balls)]
     whole = surface_of(families.united(*[families.Mesh(p.vertices, p.corner_vertices, p.face_offsets) for p in parts]))
     uv = arranged(automatic_maps(whole, main=main, **options), len(whole.corner_vertices))
-    found = [drawn_densities(part, uv[part.corner_index])[1] for part in whole.components]
+    found = [drawn_density(part, uv[part.corner_index]) for part in whole.components]
     assert max(found) <= LIKE * min(found)
 
 
@@ -46,7 +46,7 @@ def test_parts_have_one_size_in_the_triangles_that_are_drawn(seed):
     whole = surface_of(families.united(*parts))
     maps = automatic_maps(whole, main="seamless", tiles=1000)
     uv = arranged(maps, len(whole.corner_vertices))
-    found = [drawn_densities(part, uv[part.corner_index])[1] for part in whole.components]
+    found = [drawn_density(part, uv[part.corner_index]) for part in whole.components]
     assert max(found) <= LIKE * min(found)
 
 

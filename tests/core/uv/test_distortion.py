@@ -99,7 +99,7 @@ def test_degenerate_faces_and_maps_give_finite_numbers():
 )
 def test_arrays_that_are_no_mesh_are_refused(wrong, error):
     mesh = {"vertices": np.eye(3), "corner_vertices": np.arange(3), "face_offsets": np.array([0, 3])}
-    for measure in (distortion.measure, distortion.drawn_densities):
+    for measure in (distortion.measure, distortion.drawn_density):
         measure(SimpleNamespace(**mesh), np.eye(3)[:, :2])
         with pytest.raises(error):
             measure(SimpleNamespace(**mesh | wrong), np.eye(3)[:, :2])
