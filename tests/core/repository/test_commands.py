@@ -1,8 +1,11 @@
-"""The commands of the pages: programs, options and names that they mention exist. Each block of code has a kind."""
+"""The commands of the pages: programs, options and names that they mention exist. Each block of code has a kind. And so
+do the names that programs beside the library ask it for."""
 
+import ast
 import contextlib
 import importlib
 import io
+import pkgutil
 import re
 import shlex
 
@@ -132,3 +135,30 @@ def test_names_of_the_package_exist(page):
             if not hasattr(value, name):
                 importlib.import_module(f"holomorph.{name}")
             value = getattr(value, name)
+
+
+def asked_names(text):
+    """What a program imports from the library, and the attributes of its module."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("holomorph"):
+            yield from (f"{node.module}.{name.name}" for name in node.names)
+        elif isinstance(node, ast.Attribute) and re.fullmatch(r"holomorph(\.\w+)+", name := ast.unparse(node)):
+            yield name
+
+
+@pytest.mark.parametrize(
+    "program", [*ROOT.glob("benchmarks/*.py"), *ROOT.glob("docs/*.py")], ids=lambda path: path.name
+)
+def test_programs_ask_for_names_that_exist(program):
+    for name in asked_names(program.read_text(encoding="utf-8")):
+        pkgutil.resolve_name(name)
+
+
+def test_a_name_that_is_gone_would_be_found():
+    assert list(asked_names("from holomorph.quality import gone\nholomorph.quality.lost()")) == [
+        "holomorph.quality.gone",
+        "holomorph.quality.lost",
+        "holomorph.quality",
+    ]
+    with pytest.raises(AttributeError):
+        pkgutil.resolve_name("holomorph.quality.gone")
