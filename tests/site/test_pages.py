@@ -44,6 +44,14 @@ def test_a_page_is_whole(page, name, pictures):
     assert page.complaints == []
 
 
+@pytest.mark.parametrize("width", [390, 800, 1400])
+def test_pages_fit_a_window(open_page, width):
+    page = open_page(width)
+    for name in PAGES:
+        page.goto((SITE / name).as_uri(), wait_until="domcontentloaded")
+        assert page.evaluate("document.documentElement.scrollWidth") <= width, name
+
+
 def test_a_broken_link_would_be_found():
     assert is_broken((SITE / "nowhere.html").as_uri()) and is_broken((SITE / "tiling.html").as_uri() + "#nowhere")
     assert not is_broken((SITE / "tiling.html").as_uri() + "#baking")
