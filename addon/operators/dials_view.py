@@ -35,7 +35,7 @@ def draw_texture(layout, dials):
 def draw(layout, dials):
     """The five dials of the redo panel."""
     draw_texture(layout, dials)
-    dial(layout, dials, "size" if dials.size else "tiles")
+    dial(layout, dials, "size" if dials.size else "tiles", text="" if dials.size or dials.tiles else "Automatic")
     dial(layout, dials, "evenness", slider=True)
     dial(layout, dials, "turns")
     dial(layout, dials, "direction")

@@ -1,17 +1,23 @@
 """One set of values: the dials of an object, from which everything starts, and which a map follows."""
 
 import json
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
+from drawn_panel import Drawn
 from headless_runs import headless
 from loaded_addon import module
 from scenes import everything, mesh_object, select, sphere_arrays, stored_report, torus, uv
 from scenes import stored_poles as poles
 
-stored_dials, stored, follow, mapping = (
-    module(name) for name in ("scene.stored_dials", "results.stored", "operators.follow", "operators.mapping")
+stored_dials, stored, follow, mapping, dials_view = (
+    module(name)
+    for name in (
+        *("scene.stored_dials", "results.stored"),
+        *("operators.follow", "operators.mapping", "operators.dials_view"),
+    )
 )
 DIALS = {
     "texture": "BRICKS",
@@ -260,3 +266,14 @@ def test_a_map_of_selected_faces_waits_for_the_button():
     before = uv(obj)
     obj.holomorph_map.evenness = 1.0
     assert np.array_equal(uv(obj), before) and is_behind(obj)
+
+
+@pytest.mark.parametrize(
+    ("tiles", "size", "row"),
+    [(0, 0.0, ("tiles", "Automatic")), (9, 0.0, ("tiles", "")), (0, 0.5, ("size", ""))],
+)
+def test_the_redo_panel_says_where_the_tiles_are_automatic(tiles, size, row):
+    layout = Drawn()
+    dials_view.draw(layout, SimpleNamespace(texture="CHECKER", checker=True, tiles=tiles, size=size))
+    rows = {name: text for name, text in layout.properties.items() if name in ("tiles", "size")}
+    assert rows == dict([row])

@@ -11,7 +11,7 @@ class Drawn:
     """A layout that notes what is drawn in it."""
 
     def __init__(self):
-        self.texts, self.buttons, self.icons, self.calls = [], [], [], []
+        self.texts, self.buttons, self.icons, self.calls, self.properties = [], [], [], [], {}
 
     def label(self, text="", icon="NONE"):
         self.texts.append(text)
@@ -21,6 +21,9 @@ class Drawn:
         self.buttons.append(text or name)
         self.calls.append((name, type("Properties", (), {})()))
         return self.calls[-1][1]
+
+    def prop(self, _data, name, text="", **_options):
+        self.properties[name] = text
 
     def column(self, **_options):
         return self
