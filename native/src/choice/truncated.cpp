@@ -23,20 +23,23 @@ Complex at(const uv::UvArray& uv, int corner) { return {uv(corner, 0), uv(corner
 
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
-int farthest(const std::vector<Point>& points, const Point& from) {
-  const auto further = [&](const Point& a, const Point& b) { return distance(a, from) < distance(b, from); };
-  return static_cast<int>(std::ranges::max_element(points, further) - points.begin());
-}
-
-// The vertex farthest from the middle, and the one farthest from that; the first of equals.
-std::vector<int> far_corners(const std::vector<Point>& points) {
+// The vertex farthest from the middle, and the one farthest from that; the first of equals. Between two polygons only,
+// a vertex would get two triangles with the same vertices.
+std::vector<int> far_corners(const mesh::Polygons& polygons) {
+  const std::vector<Point>& points = polygons.vertices;
+  std::vector<int> faces(points.size(), 0), allowed;
+  for (const int v : polygons.corner_vertices) ++faces[v];
   Point middle{};
-  for (int k = 0; k < 3; ++k) {
-    for (const Point& point : points) middle[k] += point[k];
-    middle[k] /= static_cast<double>(points.size());
+  for (int v = 0; v < std::ssize(points); ++v) {
+    if (faces[v] > 2) allowed.push_back(v);
+    for (int k = 0; k < 3; ++k) middle[k] += points[v][k];
   }
-  const int one = farthest(points, middle);
-  return {one, farthest(points, points[one])};
+  for (double& each : middle) each /= static_cast<double>(points.size());
+  const auto farthest = [&](const Point& from) {
+    return *std::ranges::max_element(allowed, {}, [&](int v) { return distance(points[v], from); });
+  };
+  const int one = farthest(middle);
+  return {one, farthest(points[one])};
 }
 
 // The new vertices, one on each edge that leaves a vertex whose corners are cut off.
@@ -97,7 +100,7 @@ Truncation truncated(const mesh::Polygons& polygons, const std::vector<int>& ver
 Truncated::Truncated(PartPointer part, const structure::Options& options, Execution& execution)
     : AnyStructure(MapKind::kLog, part, part->surface) {
   const mesh::Polygons& polygons = part->surface->polygons;
-  const std::vector<int> poles = far_corners(polygons.vertices);
+  const std::vector<int> poles = far_corners(polygons);
   truncation_ = truncated(polygons, poles);
   const auto surface = std::make_shared<const mesh::Surface>(mesh::make_surface(truncation_.polygons, execution));
   refined_ = std::make_unique<Forms>(

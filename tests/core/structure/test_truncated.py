@@ -15,6 +15,10 @@ def pyramid(sides, height=2.0):
     return vertices, [list(range(sides))[::-1]] + [[i, (i + 1) % sides, sides] for i in range(sides)]
 
 
+def as_polygons(vertices, faces):
+    return vertices, np.concatenate(faces), np.cumsum([0, *map(len, faces)])
+
+
 def solved(sides):
     surface = holomorph.Surface(*pyramid(sides))
     return surface, holomorph.log_map(surface)
@@ -108,3 +112,22 @@ def test_without_positions_nothing_is_cut_off():
     surface = holomorph.Surface.from_edge_lengths(np.array(faces), np.ones((4, 3)))
     with pytest.raises(holomorph.TopologyError, match="too coarse for two poles: .* subdivide the mesh"):
         holomorph.log_map(surface)
+
+
+def pillow(sides, fan):
+    """A polygon, and as its other side triangles around vertex `fan`: most vertices lie between two faces only."""
+    angle = 2 * np.pi * np.arange(sides) / sides
+    around = [(fan + k) % sides for k in range(1, sides)]
+    faces = [[fan, b, a] for a, b in zip(around, around[1:])]
+    return np.column_stack([np.cos(angle), np.sin(angle), np.zeros(sides)]), [list(range(sides)), *faces]
+
+
+@pytest.mark.parametrize(("sides", "fan"), [(4, 0), (4, 1), (5, 2), (8, 0), (8, 5)])
+def test_no_pole_lies_between_two_faces(sides, fan):
+    surface = holomorph.Surface.from_polygons(*as_polygons(*pillow(sides, fan)))
+    structure = holomorph.log_map(surface)
+    corners = surface.components[0].corner_vertices
+    assert isinstance(structure, TruncatedStructure)
+    assert (np.bincount(corners)[list(structure.poles)] > 2).all()
+    assert np.isfinite(structure.uv(structure.balanced_coefficients())).all()
+    assert holomorph.automatic_map(surface).kind == "islands"
