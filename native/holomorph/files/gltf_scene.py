@@ -23,12 +23,18 @@ def placed(path):
     content = whole_file.read(path)
     binary = b""
     if content[:4] == struct.pack("<I", MAGIC):
+        _check_version(*struct.unpack_from("<I", content, 4))
         content, binary = _chunks(content)
     scene = _Scene(json.loads(content), binary, Path(path).parent)
     scene.check()
     for mesh, matrix in scene.meshes():
         for primitive in mesh["primitives"]:
             yield *scene.triangles(primitive), matrix
+
+
+def _check_version(version):
+    if not str(version).startswith("2"):
+        raise InvalidMesh(f"this is glTF {version}; 2.0 is needed")
 
 
 def _chunks(content):
@@ -47,9 +53,7 @@ class _Scene:
         self._content, self._binary, self._folder, self._buffers = content, binary, folder, {}
 
     def check(self):
-        version = str(self._content["asset"]["version"])
-        if not version.startswith("2."):
-            raise InvalidMesh(f"this is glTF {version}; 2.0 is needed")
+        _check_version(self._content["asset"]["version"])
         for name in self._content.get("extensionsRequired", []):
             if "compression" in name:
                 raise InvalidMesh(f"it is compressed ({name}); save it without")

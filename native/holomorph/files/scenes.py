@@ -41,7 +41,10 @@ def read(path, weld):
         problem = "there is no such file" if isinstance(error, FileNotFoundError) else error.strerror
         raise InvalidMesh(f"{os.fsdecode(error.filename or path)}: {problem}") from error
     except MALFORMED as error:
-        told = f"it has no {error}" if isinstance(error, KeyError) else str(error)
+        wrong_kind = (
+            "a value of it is of the wrong kind" if isinstance(error, (TypeError, AttributeError)) else str(error)
+        )
+        told = f"it has no {error}" if isinstance(error, KeyError) else wrong_kind
         raise InvalidMesh(f"{os.fsdecode(path)}: the file is damaged: {told}") from error
     if weld:
         points, places = np.unique(points + 0.0, axis=0, return_inverse=True)  # -0.0 is 0.0
@@ -61,7 +64,8 @@ def joined(pieces):
         used, places = np.unique(corners, return_inverse=True)
         if len(used) and not 0 <= used[0] <= used[-1] < len(given):
             raise InvalidMesh(f"a triangle has vertex {used[0] if used[0] < 0 else used[-1]} of {len(given)}")
-        points.append(given[used] @ matrix[:3, :3] + matrix[3, :3])
+        with np.errstate(invalid="ignore"):  # faces at what is infinite are refused later
+            points.append(given[used] @ matrix[:3, :3] + matrix[3, :3])
         mirrors = np.linalg.det(matrix[:3, :3]) < 0
         triangles.append((places.reshape(-1, 3) + count)[:, :: -1 if mirrors else 1])
         count += len(used)

@@ -147,7 +147,7 @@ def changed(change):
         (lambda a: a["bufferViews"][0].update(byteStride=0), "overlap"),
         (lambda a: a["accessors"][1].update(componentType=5121), "vertex"),
         (lambda a: a.pop("accessors"), "no 'accessors'"),
-        (lambda a: a.update(nodes=7), "damaged"),
+        (lambda a: a.update(nodes=7), "a value of it is of the wrong kind"),
         (lambda a: a["meshes"][0]["primitives"][0].update(mode=1), "no faces"),
         (lambda a: a["scenes"][0].update(nodes=[3]), "damaged"),
     ],
@@ -157,6 +157,21 @@ def test_what_cannot_be_read_is_said(change, told, tmp_path):
     with pytest.raises(InvalidMesh) as caught:
         Surface.read(path)
     assert told in str(caught.value) and len(str(caught.value).splitlines()) == 1
+
+
+def test_a_binary_file_of_an_earlier_version_is_told(tmp_path):
+    content = bytearray(door_files.gltf([TETRAHEDRON]))
+    content[4] = 1
+    with pytest.raises(InvalidMesh, match="this is glTF 1; 2.0 is needed"):
+        Surface.read(written(tmp_path / "old.glb", bytes(content)))
+
+
+@pytest.mark.filterwarnings("error")
+def test_faces_with_an_infinite_corner_are_refused(tmp_path):
+    about, binary = chunks(door_files.gltf([TETRAHEDRON]))
+    binary = np.full(3, np.inf, np.float32).tobytes() + bytes(binary)[12:]
+    surface = Surface.read(text_file(tmp_path / "infinite.gltf", about, binary))
+    assert len(surface.triangles) == 1 and "3 faces" in str(surface.refused)
 
 
 def test_a_file_that_repeats_its_mesh_stays_small(monkeypatch, tmp_path):
