@@ -12,7 +12,7 @@ from conftest import PLATFORMS, PYTHONS, extension, run, wheels
 from repository import ROOT, VERSION
 
 BLENDER = ROOT / "build" / "venv" / "bpy-4.2" / "bin" / "python"  # as a Python module
-MOST_MEGABYTES = 3.0
+MOST_MEGABYTES = 3.5  # a wheel, of which an extension has one for each Python
 TAGS = {
     "windows-x64": "win_amd64",
     "macos-arm64": "macosx_11_0_arm64",
@@ -40,7 +40,7 @@ def test_the_extension_is_small_and_complete(repository, platform, tmp_path):
     path = extension(repository, platform)
     megabytes = path.stat().st_size / 1e6
     print(f"{path.name}: {megabytes:.2f} MB")
-    assert megabytes < MOST_MEGABYTES
+    assert megabytes < MOST_MEGABYTES * len(PYTHONS)
     found = wheels(path, tmp_path)
     assert {wheel.name for wheel in found.values()} == {
         f"holomorph-{VERSION}-{t}-{t}-{TAGS[platform]}.whl" for t in PYTHONS
