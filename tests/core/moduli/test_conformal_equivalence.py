@@ -406,7 +406,7 @@ def test_command_line(tmp_path, capsys):
 def test_command_line_refuses_in_one_sentence(tmp_path, capsys):
     torus = write(tmp_path, "a.obj", families.torus(8, 6))
     both = write(tmp_path, "two.obj", families.united(families.torus(8, 6), families.cube()))
-    for wrong, reason in ((both, "2 connected components"), (str(tmp_path / "none.obj"), "none.obj")):
-        assert main(["compare", torus, wrong]) == 1
+    for wrong, code, reason in ((both, 1, "2 connected components"), (str(tmp_path / "none.obj"), 2, "none.obj")):
+        assert main(["compare", torus, wrong]) == code
         said = capsys.readouterr()
         assert not said.out and said.err.startswith("holomorph: ") and reason in said.err and said.err.count("\n") == 1
