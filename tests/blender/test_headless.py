@@ -207,15 +207,16 @@ def test_poles_and_residues(torus_file, tmp_path):
 
 
 def test_choices_that_do_not_fit_are_one_sentence(torus_file, tmp_path):
-    for path, options, word in (
-        (torus_file, ("--pole", 3), "pole 3"),
-        (torus_file, ("--pole", 3, "--pole", 100000), "100000"),
-        (torus_file, ("--pole", 3, "--pole", 150, "--residues", "1 1"), "residues"),
-        (torus_file, ("--pole", 3, "--rectangle", 0, 1, 2, 3), "cannot be combined"),
-        (torus_file, ("--pole", 3, "--pole", 150, "--residues", "a b"), "'a' is not a number"),
-        (grid_file(tmp_path), ("--rectangle", 0, 168, 156, 84), "84"),
+    """With 2 whatever the mesh, with 1 where the mesh is another."""
+    for path, options, status, word in (
+        (torus_file, ("--pole", 3), 1, "pole 3"),
+        (torus_file, ("--pole", 3, "--pole", 100000), 1, "100000"),
+        (torus_file, ("--pole", 3, "--pole", 150, "--residues", "1 1"), 1, "residues"),
+        (torus_file, ("--pole", 3, "--rectangle", 0, 1, 2, 3), 2, "cannot be combined"),
+        (torus_file, ("--pole", 3, "--pole", 150, "--residues", "a b"), 2, "'a' is not a number"),
+        (grid_file(tmp_path), ("--rectangle", 0, 168, 156, 84), 1, "84"),
     ):
-        assert word in refusal(path, *options)
+        assert word in refusal(path, *options, status=status)
 
 
 def test_choices_need_one_object(tmp_path):

@@ -93,7 +93,7 @@ def test_the_command_of_an_extension_is_known_where_blender_has_such(capsys):
     """Since 4.2; its exit status is returned, not raised."""
     registration = module("command_line.registration")
     assert len(registration._registered) == (bpy.app.version >= (4, 2, 0))
-    assert registration._run(["--bogus"]) == 1
+    assert registration._run(["--bogus"]) == 2
     assert "--bogus" in capsys.readouterr().err
     assert registration._run(["--help"]) == 0
     assert capsys.readouterr().out.startswith("usage: blender [file.blend] --command holomorph ")
