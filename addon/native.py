@@ -22,7 +22,7 @@ PLATFORMS = {
     ("Linux", "x86_64"): "linux_x64",
     ("Linux", "aarch64"): "linux_arm64",
 }
-TAGS = ("cp311", "cp313")  # the Pythons that the zips have modules for
+TAGS = ("cp311", "cp313", "cp314")  # the Pythons that the zips have modules for
 FIRST_WITH_EXTENSIONS = (4, 2)  # version of Blender
 
 

@@ -75,7 +75,7 @@ def test_registration_survives_a_missing_native_part(without_native_part):
         ((4, 2, 0), ("Linux", "aarch64"), "cp311", "ends in linux_arm64.zip"),
         ((3, 4, 1), ("Linux", "x86_64"), "cp311", "ends in blender-3.4.zip"),
         ((3, 6, 0), ("Windows", "AMD64"), "cp311", "needs Blender 4.2 or newer"),
-        ((5, 2, 0), ("Linux", "x86_64"), "cp314", "scripts/build"),
+        ((5, 2, 0), ("Linux", "x86_64"), "cp315", "scripts/build"),
         ((5, 2, 0), ("FreeBSD", "amd64"), "cp313", "scripts/build"),
     ],
 )

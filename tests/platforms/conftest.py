@@ -9,7 +9,7 @@ import pytest
 from repository import ROOT
 
 PLATFORMS = ("windows-x64", "macos-arm64", "macos-x64", "linux-x64", "linux-arm64")
-PYTHONS = ("cp311", "cp313")
+PYTHONS = ("cp311", "cp313", "cp314")
 SECONDS = 5400
 
 

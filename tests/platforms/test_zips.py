@@ -55,7 +55,7 @@ def test_the_extension_is_small_and_complete(repository, platform, tmp_path):
 def test_the_index_has_all_platforms(repository):
     entries = json.loads((repository / "index.json").read_text(encoding="utf-8"))["data"]
     assert sorted(platform for entry in entries for platform in entry["platforms"]) == sorted(PLATFORMS)
-    assert all(entry["python_versions"] == ["3.11", "3.13"] for entry in entries)
+    assert all(entry["python_versions"] == ["3.11", "3.13", "3.14"] for entry in entries)
 
 
 @pytest.mark.parametrize("platform", PLATFORMS)

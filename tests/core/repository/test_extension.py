@@ -54,7 +54,7 @@ def make_zips():
 def wheels(tmp_path_factory):
     """One for each platform and Python."""
     folder = tmp_path_factory.mktemp("wheels")
-    for tag in ("cp311", "cp313"):
+    for tag in ("cp311", "cp313", "cp314"):
         for end in ENDS:
             with zipfile.ZipFile(folder / f"holomorph-{VERSION}-{tag}-{tag}-{end}.whl", "w") as wheel:
                 wheel.writestr("holomorph/__init__.py", f"TAG = {tag!r}  # {end}\n" * 9)
