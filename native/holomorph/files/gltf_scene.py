@@ -33,7 +33,7 @@ def placed(path):
 
 
 def _check_version(version):
-    if not str(version).startswith("2"):
+    if str(version).partition(".")[0] != "2":  # a number in a GLB, "2.0" in its JSON
         raise InvalidMesh(f"this is glTF {version}; 2.0 is needed")
 
 

@@ -41,10 +41,9 @@ def read(path, weld):
         problem = "there is no such file" if isinstance(error, FileNotFoundError) else error.strerror
         raise InvalidMesh(f"{os.fsdecode(error.filename or path)}: {problem}") from error
     except MALFORMED as error:
-        wrong_kind = (
-            "a value of it is of the wrong kind" if isinstance(error, (TypeError, AttributeError)) else str(error)
-        )
-        told = f"it has no {error}" if isinstance(error, KeyError) else wrong_kind
+        told = f"it has no {error}" if isinstance(error, KeyError) else str(error)
+        if isinstance(error, (TypeError, AttributeError)):  # told in Python's words
+            told = "a value of it is of the wrong kind"
         raise InvalidMesh(f"{os.fsdecode(path)}: the file is damaged: {told}") from error
     if weld:
         points, places = np.unique(points + 0.0, axis=0, return_inverse=True)  # -0.0 is 0.0

@@ -141,6 +141,7 @@ def changed(change):
     [
         (lambda a: a.update(extensionsRequired=["KHR_draco_mesh_compression"]), "compressed (KHR_draco"),
         (lambda a: a["asset"].update(version="1.0"), "glTF 1.0"),
+        (lambda a: a["asset"].update(version="20.0"), "glTF 20.0"),
         (lambda a: a["nodes"][0].update(children=[0]), "no tree"),
         (lambda a: a["accessors"][0].update(sparse={}), "sparse"),
         (lambda a: a["accessors"][0].update(count=10**9), "damaged"),
