@@ -73,11 +73,11 @@ MapPointer MapSearch::found_at_once(Execution& execution) {
     return form_map(asked.part, asked.structure, asked.coefficients, asked.evenness, is_upright, "it was asked for",
                     execution);
   }
-  if (asked.main == Main::kUntiled) return untiled_->best("it has no tiling", execution);
+  if (asked.main == Main::kUntiled) return held(untiled_).best("it has no tiling", execution);
   if (asked.main == Main::kSeamless) return nullptr;
   if (asked.part->area == 0)
     return form_map(asked.part, asked.structure, {}, asked.evenness, false, "the surface has no area", execution);
-  flat_ = untiled_->at_once(execution);
+  flat_ = held(untiled_).at_once(execution);
   return flat_ && !may_be_better(flat_->islands().get()) ? flat_ : nullptr;
 }
 
@@ -94,12 +94,12 @@ std::vector<MapPointer> MapSearch::tried(double density, int tries, bool leads, 
   if (is_long) {
     if (const MapPointer made = quick(density, leads ? tries : 0, execution)) best = made;
     const double times = best && best->cost() >= kPoor ? kFar : 1;
-    if (best && !budget_->goes_on(tilings_->expected_work(), times)) return {said(best)};
+    if (best && !budget_->goes_on(held(tilings_).expected_work(), times)) return {said(best)};
   }
   if (!best || is_ring() || best->cost() > kGood) {
     std::string why = "a tiling would look worse";
     const auto whole = [&] {
-      return nested(execution, 0.0, kTiling, [&] { return tilings_->of_density(density, tries, execution); });
+      return nested(execution, 0.0, kTiling, [&] { return held(tilings_).of_density(density, tries, execution); });
     };
     if (request_.main == Main::kSeamless) return whole();
     tilings = unless_refused(whole, [&](const Error& error) {
@@ -123,13 +123,13 @@ std::vector<MapPointer> MapSearch::tried(double density, int tries, bool leads, 
 
 // Whether a tiling of the whole part, that may be left out, takes more than there is.
 bool MapSearch::is_long() const {
-  const bool is_open = request_.main != Main::kSeamless && !tilings_->is_strict();
-  return is_open && !budget_->allows(tilings_->expected_work());
+  const bool is_open = request_.main != Main::kSeamless && !held(tilings_).is_strict();
+  return is_open && !budget_->allows(held(tilings_).expected_work());
 }
 
 // The best of the maps that take less than a tiling of the whole part.
 MapPointer MapSearch::quick(double density, int tries, Execution& execution) {
-  const MapPointer islands = untiled_->islands(kInfinity, tilings_->expected_work() * kIslands, execution);
+  const MapPointer islands = held(untiled_).islands(kInfinity, held(tilings_).expected_work() * kIslands, execution);
   const MapPointer best = flat_ && islands ? (islands->cost() < flat_->cost() ? islands : flat_)
                           : flat_          ? flat_
                                            : islands;
@@ -148,11 +148,11 @@ MapPointer MapSearch::least(const MapPointer& flat, const MapPointer& tiling, co
   MapPointer best = flat && tiling ? (tiling->cost() < flat->cost() ? tiling : flat) : flat ? flat : tiling;
   const bool is_poor = !best || best->cost() >= kPoor;
   if (best && !budget_->goes_on(0, is_poor ? kFar : 1)) return best;
-  if (const MapPointer balanced = untiled_->balanced(best ? best->cost() : kInfinity, why, execution)) best = balanced;
-  if (!best) return untiled_->best(why, execution);
+  if (const MapPointer balanced = held(untiled_).balanced(best ? best->cost() : kInfinity, why, execution)) best = balanced;
+  if (!best) return held(untiled_).best(why, execution);
   if (flat && flat->cost() <= kGood) return best;
   const MapPointer islands =
-      untiled_->islands(best->cost(), is_poor ? std::optional(kInfinity) : std::nullopt, execution);
+      held(untiled_).islands(best->cost(), is_poor ? std::optional(kInfinity) : std::nullopt, execution);
   return islands ? islands : best;
 }
 
@@ -170,10 +170,10 @@ MapPointer MapSearch::fitted(const std::vector<MapPointer>& found, double densit
     return exact ? exact : made;
   }
   if (!made->tiling()) return made;
-  if (is_inside || tilings_->is_strict()) {
-    const MapPointer moved = tilings_->moved(is_inside ? inside : found, density, true, execution);
+  if (is_inside || held(tilings_).is_strict()) {
+    const MapPointer moved = held(tilings_).moved(is_inside ? inside : found, density, true, execution);
     if (is_inside) return moved;
-    const MapPointer stretched = tilings_->stretched(*moved, density, execution);
+    const MapPointer stretched = held(tilings_).stretched(*moved, density, execution);
     return stretched ? stretched : moved;
   }
   return best_of_others(made, found, density, window, near, execution);
@@ -187,7 +187,7 @@ MapPointer MapSearch::best_of_others(const MapPointer& made, const std::vector<M
   } else if (const MapPointer fitting = stretched_or_turned(made, density, window, execution)) {
     return fitting;
   } else {
-    others = {untiled_->best(kTooFew, execution), untiled_->one_island(*made->tiling(), kTooFew, execution)};
+    others = {held(untiled_).best(kTooFew, execution), held(untiled_).one_island(*made->tiling(), kTooFew, execution)};
   }
   for (const MapPointer& one : found) {
     if (std::abs(relative_size(*one, density) - 1) <= near) others.push_back(one);
@@ -199,7 +199,7 @@ MapPointer MapSearch::best_of_others(const MapPointer& made, const std::vector<M
 
 MapPointer MapSearch::instead_of_refused(const std::string& why, Execution& execution) {
   const Budget::Counting counting(*budget_);
-  return untiled_->best(why, execution);
+  return held(untiled_).best(why, execution);
 }
 
 // As `fitted`, of maps without lines, or of those that do not turn: these have more sizes.
@@ -219,28 +219,28 @@ MapPointer MapSearch::less_bound(const MapPointer& made, double density, const W
 
 MapPointer MapSearch::about(double density, int tries, Execution& execution) {
   const std::vector<MapPointer> found = maps(density, tries, true, execution);
-  return found[0]->tiling() ? tilings_->moved(found, density, tries > 1, execution) : found[0];
+  return found[0]->tiling() ? held(tilings_).moved(found, density, tries > 1, execution) : found[0];
 }
 
 // The tiling stretched to the density, or turned until it is in the window; null where it is neither.
 MapPointer MapSearch::stretched_or_turned(const MapPointer& made, double density, const Window& window,
                                           Execution& execution) {
-  const MapPointer stretched = tilings_->stretched(*made, density, execution);
+  const MapPointer stretched = held(tilings_).stretched(*made, density, execution);
   if (stretched && !has_rival(*stretched, execution)) return stretched;
-  const MapPointer turned = tilings_->turned(density, execution);
+  const MapPointer turned = held(tilings_).turned(density, execution);
   return turned && window.holds(relative_size(*turned, density)) ? turned : nullptr;
 }
 
 bool MapSearch::has_rival(const Map& made, Execution& execution) {
   if (request_.main == Main::kSeamless || !budget_->goes_on()) return false;
-  return untiled_->balanced(made.cost(), "", execution) || untiled_->islands(made.cost(), {}, execution);
+  return held(untiled_).balanced(made.cost(), "", execution) || held(untiled_).islands(made.cost(), {}, execution);
 }
 
 MapPointer MapSearch::in_pieces(const MapPointer& rival, double density, int tries, const Window& window,
                                 Execution& execution) {
-  if (tilings_->is_strict() || !may_be_better(untiled_->known().get())) return nullptr;
+  if (held(tilings_).is_strict() || !may_be_better(held(untiled_).known().get())) return nullptr;
   if (rival && rival->tiling() && !budget_->goes_on(0, kPieces)) return nullptr;
-  if (!pieces_) pieces_.emplace(request_, request_.structure, untiled_->known(), *budget_);
+  if (!pieces_) pieces_.emplace(request_, request_.structure, held(untiled_).known(), *budget_);
   return pieces_->best(rival, density, tries, window, execution);
 }
 

@@ -42,7 +42,7 @@ class MapSearch {
   /// The same where `maps` was refused, for this reason. @throws std::logic_error never: see `is_strict`
   MapPointer instead_of_refused(const std::string& why, Execution& execution);
   /// Whether more is asked of a tiling than its density, so that what refuses it is not passed over.
-  bool is_strict() const { return tilings_->is_strict(); }
+  bool is_strict() const { return held(tilings_).is_strict(); }
 
   /// The map whose density is the nearest that this many numbers of tiles give.
   MapPointer about(double density, int tries, Execution& execution);

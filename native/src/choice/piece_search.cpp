@@ -40,8 +40,10 @@ MapPointer PieceSearch::best(const MapPointer& rival, double density, int tries,
   if (!found_) found_ = nested(execution, 0.0, 0.0, [&] { return divisions(execution); });
   if (!cut_ && may_be_cut(rival)) cut_ = nested(execution, 0.0, 0.0, [&] { return in_hiding(execution); });
   std::vector<Division*> all;
-  for (Division& each : *found_) all.push_back(&each);
-  if (cut_) all.push_back(&**cut_);
+  for (auto* divisions : {&found_, &cut_}) {
+    if (!*divisions) continue;
+    for (Division& each : **divisions) all.push_back(&each);
+  }
   MapPointer best;
   double least = kInfinity;
   const auto count = static_cast<double>(all.size());
@@ -90,15 +92,17 @@ bool PieceSearch::may_be_cut(const MapPointer& rival) const {
   return is_uneven && request_.main == Main::kAutomatic && request_.tiling.turns != 1;
 }
 
-// The part cut open, if it does not fall apart and can be solved.
-std::optional<PieceSearch::Division> PieceSearch::in_hiding(Execution& execution) {
+// The part cut open; none if it falls apart or cannot be solved.
+std::vector<PieceSearch::Division> PieceSearch::in_hiding(Execution& execution) {
   auto found = cut_in_hiding(*request_.part, request_.is_upright(), execution);
   if (!found) return {};
   auto& [piece, seen] = *found;
   const auto search = search_of(piece, true, execution);
   if (!search) return {};
-  Division result{std::vector<int>(request_.part->surface->polygons.face_offsets.size() - 1, 0), {}, seen};
-  result.pieces.push_back({std::move(piece), *search});
+  std::vector<Division> result(1);
+  result[0].names.assign(request_.part->surface->polygons.face_offsets.size() - 1, 0);
+  result[0].cut = seen;
+  result[0].pieces.push_back({std::move(piece), *search});
   return result;
 }
 

@@ -51,7 +51,7 @@ class PieceSearch {
 
   std::vector<Division> divisions(Execution& execution);
   bool may_be_cut(const MapPointer& rival) const;
-  std::optional<Division> in_hiding(Execution& execution);
+  std::vector<Division> in_hiding(Execution& execution);
   std::optional<TilingSearch> search_of(const Piece& piece, bool is_cut, Execution& execution);
   bool is_worth(Solved& solved, const MapPointer& rival, Execution& execution) const;
   std::vector<Tiled> tiled(Division& division, const MapPointer& rival, double density, int tries, const Window& window,
@@ -67,9 +67,8 @@ class PieceSearch {
   StructurePointer structure_;
   std::shared_ptr<const islands::Islands> flat_;
   Budget& budget_;
-  std::optional<std::vector<Division>> found_;
-  std::optional<std::optional<Division>> cut_;   // the inner one: if the part can be cut open
-  std::map<std::vector<int>, MapPointer> rest_;  // of pieces without tiling, by their polygons
+  std::optional<std::vector<Division>> found_, cut_;  // what was looked for already; cut_ none or one
+  std::map<std::vector<int>, MapPointer> rest_;       // of pieces without tiling, by their polygons
 };
 
 }  // namespace holomorph::choice

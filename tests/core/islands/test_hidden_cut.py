@@ -6,7 +6,7 @@ import pytest
 from holomorph import _native, automatic_map
 from holomorph.mesh.cut_open import cut_open
 from holomorph.mesh.edges import edge_keys
-from limbed import limbs, spikes
+from limbed import limbs, open_limbs, spikes
 from solved import surface_of
 
 EXACT = 1e-12
@@ -72,6 +72,16 @@ def test_limbs_are_cut_open_for_squares_of_one_size():
     # Both sides of all edges agree up to turns and whole tiles, but for those of the cut.
     breaks_off = jumps_that_no_tile_has(surface, made.uv)
     assert not breaks_off[~is_cut].any() and breaks_off[is_cut].mean() > 0.9
+
+
+@pytest.mark.parametrize("count", [2, 3])
+def test_limbs_that_would_fall_apart_are_not_cut(count):
+    """Though the squares differ so much that a cut is looked for."""
+    surface = surface_of(open_limbs(count))
+    parts, _ = _native.cut_in_hiding(surface._native, [0, 0, 1], threads=1, progress=None)
+    assert len(parts) > 1
+    made = automatic_map(surface, turns=4)
+    assert made.kind == "tiling" and made.quality.density_ratio > 2.2
 
 
 def test_textures_without_turns_have_no_hidden_cut():
