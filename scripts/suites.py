@@ -11,7 +11,7 @@ BLENDER = os.environ.get("HOLOMORPH_BLENDER") or "blender"
 # The longest ones first, so that two at a time end together.
 DEFAULT = ["lint", "native", "blender-3.4", "core", "package", "bpy-5.2", "window", "batch"]
 ALL = ["injection", "lint", "native", "blender-3.4", "core", "package", "batch", "asan", "site", "window", "fuzz"]
-ALL += ["window-new", "window-sid", "tsan", "bpy-5.2", "bpy-5.0", "bpy-4.5", "bpy-4.2"]
+ALL += ["tidy", "window-new", "window-sid", "tsan", "bpy-5.2", "bpy-5.0", "bpy-4.5", "bpy-4.2"]
 ON_DEMAND = ["mutate", "platforms"]  # they compile for an hour
 # The part of tests/core that runs under the sanitizers, several times slower: every kind of surface and every solver
 # once, on small meshes; tilings and what is made of them, islands, evening; malformed files; cancelling in the middle;
@@ -48,6 +48,10 @@ SANITIZED = [
 ]
 
 
+# Fresh memory is full of junk in the tests of the native core: what nobody wrote is no zero.
+JUNK = 165
+
+
 class Suite(NamedTuple):
     about: str
     commands: list  # all are run, whatever the first finds
@@ -78,7 +82,13 @@ def pytest(suite, *tests, venv="test-cp311", library="cp311", timeout=900, **var
 
 def native_tests(preset, suite):
     program = BUILD / "cmake" / f"cp311-{preset}" / "tests" / "native" / "native_tests"
-    return [program, "--gtest_brief=1", f"--gtest_output=xml:{RESULTS / suite}.native.xml"]
+    return [
+        "env",
+        f"MALLOC_PERTURB_={JUNK}",
+        program,
+        "--gtest_brief=1",
+        f"--gtest_output=xml:{RESULTS / suite}.native.xml",
+    ]
 
 
 def in_blender(suite):
@@ -123,6 +133,13 @@ def window_in(name, debian, blender, compiled_for="", **options):
 
 SUITES = {
     "lint": Suite("Format and lint.", [["scripts/lint"]], environment=":", preset=""),
+    "tidy": Suite(
+        "scripts/lint --tidy: what clang-tidy finds in the sources, such as an optional that is read unasked.",
+        [["scripts/lint", "--tidy"]],
+        environment=":",
+        preset="",
+        times=4,
+    ),
     "native": Suite(
         "tests/native: unit tests in C++, with assertions; tests/cpp: examples, built on the installed C++ library.",
         [
@@ -143,6 +160,7 @@ SUITES = {
                 / "tests"
                 / "native"
                 / "libfailing_requests.so",
+                MALLOC_PERTURB_=JUNK,
             )
         ],
         preset="dev",

@@ -5,7 +5,6 @@ from dataclasses import replace
 import families
 import numpy as np
 
-
 TIPS = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])  # directions
 
 

@@ -148,7 +148,8 @@ MapPointer MapSearch::least(const MapPointer& flat, const MapPointer& tiling, co
   MapPointer best = flat && tiling ? (tiling->cost() < flat->cost() ? tiling : flat) : flat ? flat : tiling;
   const bool is_poor = !best || best->cost() >= kPoor;
   if (best && !budget_->goes_on(0, is_poor ? kFar : 1)) return best;
-  if (const MapPointer balanced = held(untiled_).balanced(best ? best->cost() : kInfinity, why, execution)) best = balanced;
+  if (const MapPointer balanced = held(untiled_).balanced(best ? best->cost() : kInfinity, why, execution))
+    best = balanced;
   if (!best) return held(untiled_).best(why, execution);
   if (flat && flat->cost() <= kGood) return best;
   const MapPointer islands =

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/held.h"
 #include "choice/budget.h"
 #include "choice/map.h"
 #include "choice/piece_search.h"

@@ -4,6 +4,7 @@
 #include <complex>
 #include <utility>
 
+#include "base/held.h"
 #include "plane/disk_map.h"
 
 namespace holomorph::choice {
@@ -59,7 +60,8 @@ std::vector<int> Forms::seams(Execution&) {
 }
 
 std::vector<int> Forms::poles() const {
-  return solved_->value.poles ? solved_->value.poles->chosen.vertices : std::vector<int>();
+  const auto& poles = solved_->value.poles;
+  return poles ? poles->chosen.vertices : std::vector<int>();
 }
 
 void Forms::prepare_uv(Execution& execution) {
@@ -110,7 +112,7 @@ evening::Kept Forms::kept(const Eigen::VectorXcd& coefficients, Execution&) {
     case MapKind::kLog: {
       result.poles = poles();
       const auto is_real = [](const std::complex<double>& z) { return z.imag() == 0; };
-      const auto& residues = solved_->value.poles->chosen.residues;
+      const auto& residues = held(solved_->value.poles).chosen.residues;
       if (std::ranges::all_of(coefficients, is_real) && std::ranges::all_of(residues, is_real))
         result.v = rim(*triangulation());
       break;

@@ -301,9 +301,10 @@ MapPointer TilingSearch::with(const PoleChoice& poles, const Size& size, int tur
 // The tiling with the direction that is seen of the texture it is made for: that may turn, too.
 SeamlessPointer TilingSearch::under_texture(SeamlessPointer made) const {
   const int turns = request_.tiling.turns;
-  if (!made->quality.direction || made->quality.direction->turns == turns) return made;
+  const auto& direction = made->quality.direction;
+  if (!direction || direction->turns == turns) return made;
   auto result = std::make_shared<SeamlessMap>(*made);
-  result->quality.direction = uv::under(std::move(*result->quality.direction), turns);
+  result->quality.direction = uv::under(*direction, turns);
   return result;
 }
 

@@ -163,6 +163,18 @@ CutSurface without_flat_parts(CutSurface given, const FileRecord& file, Executio
   return given;
 }
 
+// Why polygons cannot be taken as they are; null where they can.
+template <class Index>
+std::exception_ptr failure_of(const BasicPolygons<Index>& given, Execution& execution) {
+  try {
+    check_polygons(given, execution.workers());
+    refuse_wild_vertices(given);
+    return nullptr;
+  } catch (const InvalidMesh&) {
+    return std::current_exception();
+  }
+}
+
 // The surface that the mesh is; without faces where it is none. @param failure why
 CutSurface as_given(Polygons polygons, std::exception_ptr& failure, Execution& execution) {
   CutSurface result;
@@ -182,19 +194,12 @@ CutSurface cut_surface_of(BasicPolygons<Index> given, Execution& execution) {
   check_layout(given);
   const FileRecord file = given.file;
   const int vertex_count = static_cast<int>(given.vertices.size());
-  std::exception_ptr failure;
   CutSurface result;
-  UsableFaces usable;
-  try {
-    check_polygons(given, execution.workers());
-    refuse_wild_vertices(given);
-  } catch (const InvalidMesh&) {
-    failure = std::current_exception();
-    usable = usable_faces(std::move(given));
+  if (std::exception_ptr failure = failure_of(given, execution)) {
+    UsableFaces usable = usable_faces(std::move(given));
     if (usable.part.face_index.empty()) std::rethrow_exception(failure);
     result = cut(std::move(usable), execution);
-  }
-  if (!failure) {
+  } else {
     result = as_given(narrowed(std::move(given)), failure, execution);
     if (failure || meets_itself(result.surface)) {
       CutSurface made = cut(usable_faces(result.surface.polygons), execution);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/errors.h"
+#include "base/held.h"
 #include "mesh/half_edges.h"
 #include "uv/uv_map.h"
 
@@ -41,7 +42,7 @@ void require_sphere(const structure::Structure& s) {
 PointArray sphere_map(const structure::Structure& s, const uv::UvArray& function, Workers& workers) {
   // With x = -log |z| = 2 pi v, the height (1 - |z|^2) / (1 + |z|^2) is tanh x, and the distance from the axis 1 / cosh
   // x.
-  const Eigen::VectorXcd angle = 2 * std::numbers::pi / s.poles->chosen.residues[0] *
+  const Eigen::VectorXcd angle = 2 * std::numbers::pi / held(s.poles).chosen.residues[0] *
                                  (function.col(0) + std::complex<double>(0, 1) * function.col(1));
   const Eigen::VectorXd turn = angle.real();
   Eigen::VectorXd rise = angle.imag();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/held.h"
 #include "structure/structure.h"
 
 namespace holomorph::structure {
@@ -64,7 +65,7 @@ std::shared_ptr<const forms::RowMajorMatrix> all_functions(const HarmonicForms& 
 // the holomorphic forms.
 Eigen::MatrixXcd differentials_with_poles(const Structure& s) {
   const Families& families = s.topology.families;
-  const auto& [chosen, stars, C] = *s.poles;
+  const auto& [chosen, stars, C] = held(s.poles);
   const Eigen::VectorXcd r =
       Eigen::Map<const Eigen::VectorXcd>(chosen.residues.data(), families.poles);  // closed: the last is the rest
   const auto& holomorphic = s.holomorphic().differentials;
@@ -104,7 +105,7 @@ double closedness(const Structure& s, const Eigen::VectorXcd& theta) {
 // Largest |int of theta_0 over a link - residue| over the residue.
 double link_residual(const Structure& s, const Eigen::VectorXcd& theta) {
   double worst = 0;
-  const auto& [chosen, stars, harmonic_part] = *s.poles;
+  const auto& [chosen, stars, harmonic_part] = held(s.poles);
   for (std::size_t i = 0; i < stars.size(); ++i) {
     Complex period = 0;
     for (const HalfedgeHandle h : stars[i].link) period += static_cast<double>(mesh::sign(h)) * theta[edge_of(h)];
@@ -132,7 +133,7 @@ Certificate certified(const Structure& s, double harmonicity) {
 
 forms::PoleForms cut_at_poles(Structure& s, const mesh::Discretisation& discretisation, Execution& execution) {
   execution.stage("homology", 0.1, 0.25);
-  const auto& stars = s.poles->stars;
+  const auto& stars = held(s.poles).stars;
   const auto& [half_edges, lengths, weights, errors, metric_error, mollification, flips] = discretisation;
   s.topology = find_topology(*s.surface, half_edges, execution, {}, stars);
   return {stars, forms::pole_residues(static_cast<Eigen::Index>(stars.size()), s.topology.type.closed()),
@@ -176,7 +177,8 @@ Structure pole_structure(std::shared_ptr<const mesh::Surface> given, Poles poles
   execution.stage("harmonic forms", 0.6, 0.9);
   if (result.topology.families.natural > 0)
     result.harmonic = harmonic_forms(*result.surface, result.topology, solver, execution);
-  result.poles->harmonic_part = harmonic_part(result, discretisation, pole_forms, third.u, solver.systems().is_stiff());
+  held(result.poles).harmonic_part =
+      harmonic_part(result, discretisation, pole_forms, third.u, solver.systems().is_stiff());
   result.record.solver = solver.report();
 
   execution.stage("certificates", 0.9, 1.0);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/held.h"
 #include "base/resource_pool.h"
 #include "structure/harmonic_solver.h"
 #include "structure/options.h"
@@ -37,7 +38,7 @@ class PoleBasis {
   const mesh::HalfEdges& half_edges() const { return discretisation_.half_edges; }
   const Array<double>& lengths() const { return discretisation_.lengths; }
   const Array<double>& weights() const { return discretisation_.weights; }
-  const mesh::Sides& sides() const { return *sides_; }
+  const mesh::Sides& sides() const { return held(sides_); }
   double area() const { return area_; }
   bool closed() const { return structure_.topology.type.closed(); }
 

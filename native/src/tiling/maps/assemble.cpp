@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/chunks.h"
+#include "base/held.h"
 #include "linear/dense.h"
 
 namespace holomorph::tiling {
@@ -90,7 +91,7 @@ SeamlessMaps::SeamlessMaps(std::shared_ptr<const PoleBasis> basis, bool straight
   } else {
     structure_ = std::make_shared<structure::Structure>(
         structure::pole_structure(plain.surface, std::move(poles), options, execution));
-    pole_parts_ = structure_->poles->harmonic_part;
+    pole_parts_ = held(structure_->poles).harmonic_part;
   }
   change_ = change_of_basis(plain.topology.classes, *structure_);
   if (pole_parts_.size() > 0) pole_parts_ = linear::inverse(change_) * pole_parts_;
