@@ -1,4 +1,5 @@
 #include "choice/map_search.h"
+#include "base/held.h"
 #include "choice/automatic_structure.h"
 
 #include <algorithm>
@@ -194,8 +195,8 @@ MapPointer MapSearch::best_of_others(const MapPointer& made, const std::vector<M
     if (std::abs(relative_size(*one, density) - 1) <= near) others.push_back(one);
   }
   std::erase(others, nullptr);
-  return *std::ranges::min_element(others, {},
-                                   [&](const MapPointer& one) { return one->cost() + missed(*one, density, window); });
+  const auto cost = [&](const MapPointer& one) { return one->cost() + missed(*one, density, window); };
+  return held(std::ranges::min_element(others, {}, cost), others);
 }
 
 MapPointer MapSearch::instead_of_refused(const std::string& why, Execution& execution) {

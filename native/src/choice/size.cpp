@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/held.h"
+
 namespace holomorph::choice {
 
 Window best_window(const std::vector<Sizes>& parts) {
@@ -17,18 +19,19 @@ Window best_window(const std::vector<Sizes>& parts) {
       if (1 <= size && size <= kLikeSize) tried.push_back(window_from(size / kLikeSize));
     }
   }
-  return *std::ranges::max_element(tried, {}, [&](const Window& window) {
-    double held = 0;
+  const auto weight = [&](const Window& window) {
+    double all = 0;
     for (const Sizes& part : parts) {
-      if (std::ranges::any_of(part.densities, [&](double size) { return window.holds(size); })) held += part.weight;
+      if (std::ranges::any_of(part.densities, [&](double size) { return window.holds(size); })) all += part.weight;
     }
-    return std::pair(held, -std::abs(std::log(window.low * window.high)));
-  });
+    return std::pair(all, -std::abs(std::log(window.low * window.high)));
+  };
+  return held(std::ranges::max_element(tried, {}, weight), tried);
 }
 
 MapPointer nearest(const std::vector<MapPointer>& maps, double density) {
   const auto off = [&](const MapPointer& made) { return std::abs(relative_size(*made, density) - 1); };
-  return *std::ranges::min_element(maps, {}, off);
+  return held(std::ranges::min_element(maps, {}, off), maps);
 }
 
 }  // namespace holomorph::choice

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "base/held.h"
 #include "mesh/edge_faces.h"
 #include "mesh/make_surface.h"
 #include "structure/pole_structure.h"
@@ -36,7 +37,7 @@ std::vector<int> far_corners(const mesh::Polygons& polygons) {
   }
   for (double& each : middle) each /= static_cast<double>(points.size());
   const auto farthest = [&](const Point& from) {
-    return *std::ranges::max_element(allowed, {}, [&](int v) { return distance(points[v], from); });
+    return held(std::ranges::max_element(allowed, {}, [&](int v) { return distance(points[v], from); }), allowed);
   };
   const int one = farthest(middle);
   return {one, farthest(points[one])};

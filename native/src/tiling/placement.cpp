@@ -17,13 +17,16 @@ MeromorphicForm transferred(MeromorphicForm form, GreensFunctions& greens, std::
   const MatrixXcd frames = uv::tangent_frames(*level.surface, greens.basis().samples());
   const std::vector<int> level_poles = form.poles;
   for (int& v : form.poles) v = level.vertex[v];
+  const bool is_whole = level.is_whole(*surface);
+  std::shared_ptr<const PoleBasis> own;
   if (like)
-    greens = level.is_whole(*surface) ? GreensFunctions(like->basis) : std::move(greens).on(like->basis);
-  else if (level.is_whole(*surface))
-    greens = GreensFunctions(std::make_shared<const PoleBasis>(std::move(surface), options.solving, execution));
+    own = like->basis;
+  else if (is_whole)
+    own = std::make_shared<const PoleBasis>(std::move(surface), options.solving, execution);
   else
-    greens = std::move(greens).on(std::make_shared<const PoleBasis>(std::move(surface), options.solving,
-                                                                    greens.shared_basis(), level, execution));
+    own =
+        std::make_shared<const PoleBasis>(std::move(surface), options.solving, greens.shared_basis(), level, execution);
+  greens = is_whole ? GreensFunctions(std::move(own)) : std::move(greens).on(std::move(own));
   const PoleBasis& basis = greens.basis();
   if (mirror) mirror = mirror_of_poles(*mirror, level_poles, basis, options.allowed, form.poles);
   greens.solve_at(form.poles, execution);

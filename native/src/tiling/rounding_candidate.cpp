@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/errors.h"
+#include "base/held.h"
 #include "base/task_progress.h"
 
 namespace holomorph::tiling {
@@ -166,14 +167,14 @@ Candidate best_candidate(const Placement& placement, const RoundingProblem& prob
     // A first rank, with the density of the poles at their old places: that of the new ones costs a solve for each.
     measure(problem, c.rounding);
   });
-  if (!moves) return *std::min_element(candidates.begin(), candidates.end(), better);
+  if (!moves) return held(std::ranges::min_element(candidates, better), candidates);
   candidates = best_of_each_way(candidates, ways);
   GreensFunctions greens = placement.greens;
   for (Candidate& c : candidates) {
     greens.solve_at(c.poles.vertices, execution);
     measure_at_poles(problem, greens, c);
   }
-  return *std::min_element(candidates.begin(), candidates.end(), better);
+  return held(std::ranges::min_element(candidates, better), candidates);
 }
 
 Candidate with_poles_moved(const Placement& placement, const RoundingProblem& problem,

@@ -8,15 +8,15 @@ std::optional<LineValues::Value> LineValues::find(int part) {
   if (!parent_[part]) return std::nullopt;
   std::vector<int> path;
   int root = part;
-  for (; root >= 0 && parent_[root]->part != root; root = parent_[root]->part) path.push_back(root);
+  for (; root >= 0 && above(root).part != root; root = above(root).part) path.push_back(root);
   // From the root's child on, so that each is by the root when the next asks.
   for (std::size_t i = path.size(); i-- > 0;) {
-    Value& own = *parent_[path[i]];
+    Value& own = above(path[i]);
     if (own.part < 0 || own.part == root) continue;
-    const Value& above = *parent_[own.part];
-    add_to(own.offset, above.offset, own.factor);
-    own.factor *= above.factor;
-    own.part = above.part;
+    const Value& next = above(own.part);
+    add_to(own.offset, next.offset, own.factor);
+    own.factor *= next.factor;
+    own.part = next.part;
   }
   return parent_[part];
 }
@@ -24,7 +24,8 @@ std::optional<LineValues::Value> LineValues::find(int part) {
 LineValues::Value LineValues::resolved(const Value& value) {
   if (value.part < 0) return value;
   if (!parent_[value.part]) parent_[value.part] = Value{value.part, 1, {}};
-  Value result = *find(value.part);
+  const std::optional<Value> found = find(value.part);
+  Value result = held(found);
   for (auto& [number, multiple] : result.offset) multiple *= value.factor;
   result.factor *= value.factor;
   add_to(result.offset, value.offset);
@@ -58,7 +59,7 @@ void LineValues::vanish(const Multiples& parts, Multiples offset) {
 std::vector<int> LineValues::roots() {
   std::vector<int> result;
   for (int p = 0; p < static_cast<int>(parent_.size()); ++p) {
-    if (parent_[p] && parent_[p]->part == p) result.push_back(p);
+    if (parent_[p] && above(p).part == p) result.push_back(p);
   }
   return result;
 }
@@ -68,7 +69,8 @@ std::vector<LineValues::Equation> LineValues::equations() {
   for (const Equation& equation : equations_) {
     Equation& resolved = result.emplace_back(Equation{{}, equation.offset});
     for (const auto& [part, multiple] : equation.roots) {
-      const Value value = *find(part);
+      const std::optional<Value> found = find(part);
+      const Value& value = held(found);
       add_to(resolved.offset, value.offset, multiple);
       if (value.part >= 0) resolved.roots[value.part] += multiple * value.factor;
     }

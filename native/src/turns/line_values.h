@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/held.h"
+
 namespace holomorph::turns {
 
 /// A sum of multiples of whole numbers, or of lines, by their numbers.
@@ -42,8 +44,9 @@ class LineValues {
 
  private:
   Value resolved(const Value& value);
+  Value& above(int part) { return held(parent_[part]); }
 
-  std::vector<std::optional<Value>> parent_;  // itself at a root
+  std::vector<std::optional<Value>> parent_;  // none on no line; itself at a root
   const bool whole_;
   std::vector<Equation> equations_;  // of parts that were roots
 };

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/held.h"
 #include "turns/line_values.h"
 
 namespace holomorph::turns {
@@ -153,16 +154,17 @@ class Maker {
   }
 
  private:
-  bool is_cone(int v) const { return corners_->turn[v] != 0; }
+  const Corners& corners() const { return held(corners_); }
+  bool is_cone(int v) const { return corners().turn[v] != 0; }
   // A cone on a whole line is at whole numbers: they are unknowns, and (1 - R) x = what moves it.
   bool is_whole_cone(int v) const { return whole_lines_ && is_cone(v) && on_line_[v]; }
   const Turn& turned(int side) const { return space_.lattice.power(space_.corner_turn[side]); }
 
   // A part of x at the corner that a side leaves, beside y.
   Multiples moved(int side, int part) const {
-    Multiples result = row_of(kRows[part], corners_->offset[side]);
+    Multiples result = row_of(kRows[part], corners().offset[side]);
     const int v = net_.tail[side];
-    if (is_cone(v) && !is_whole_cone(v)) add_to(result, corners_->at_cone(turned(side), part, v, space_.lattice));
+    if (is_cone(v) && !is_whole_cone(v)) add_to(result, corners().at_cone(turned(side), part, v, space_.lattice));
     return result;
   }
 
@@ -190,10 +192,10 @@ class Maker {
     }
     for (int v = 0; v < net_.vertex_count(); ++v) {
       if (!is_whole_cone(v)) continue;
-      const Turn left = Turn::Identity() - space_.lattice.power(corners_->turn[v]);
+      const Turn left = Turn::Identity() - space_.lattice.power(corners().turn[v]);
       for (const int part : {0, 1}) {
         values_.vanish({{2 * v, left(part, 0)}, {2 * v + 1, left(part, 1)}},
-                       row_of(-kRows[part], corners_->closing[v]));
+                       row_of(-kRows[part], corners().closing[v]));
       }
     }
     roots_ = values_.roots();
@@ -205,11 +207,11 @@ class Maker {
     std::vector<Multiples> rows;
     bool is_pinned = has_lines_ && whole_lines_;
     for (int v = 0; v < net_.vertex_count(); ++v) {
-      if (corners_->closing[v].empty() || is_whole_cone(v)) continue;
+      if (corners().closing[v].empty() || is_whole_cone(v)) continue;
       // One cone lies at 0, at which moving the whole map by the lattice changes nothing.
       if (is_cone(v) && is_pinned) continue;
       is_pinned = is_pinned || is_cone(v);
-      for (const Eigen::RowVector2d& row : kRows) rows.push_back(row_of(row, corners_->closing[v]));
+      for (const Eigen::RowVector2d& row : kRows) rows.push_back(row_of(row, corners().closing[v]));
     }
     for (const LineValues::Equation& equation : values_.equations()) {
       Multiples& row = rows.emplace_back(equation.offset);
@@ -240,7 +242,7 @@ class Maker {
 
   // Without a cone the whole map may be moved: a part of each kind stays, that of a line first.
   std::array<int, 2> staying() const {
-    if (!std::ranges::all_of(corners_->turn, [](int turn) { return turn == 0; })) return {-1, -1};
+    if (!std::ranges::all_of(corners().turn, [](int turn) { return turn == 0; })) return {-1, -1};
     const int v = roots_.empty() ? net_.tail[0] : roots_[0] / 2;
     std::array<int, 2> result{2 * v, 2 * v + 1};
     for (auto root = roots_.rbegin(); root != roots_.rend(); ++root) result[*root % 2] = *root;

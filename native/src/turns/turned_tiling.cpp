@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/held.h"
 #include "mesh/components.h"
 #include "mesh/hard_edges.h"
 
@@ -64,7 +65,7 @@ TurnedTiler::TurnedTiler(std::shared_ptr<const mesh::Surface> surface, const Til
 }
 
 TurnedTiling TurnedTiler::tile(double tiles, double evenness, Execution& execution) {
-  TurnedTiling result{maps_->turned_map(tiles / (half_ ? 2 : 1), evenness, execution), options_.rows, {}};
+  TurnedTiling result{held(maps_).turned_map(tiles / (half_ ? 2 : 1), evenness, execution), options_.rows, {}};
   if (half_) result.map = half_->unfolded(result.map, options_.turns);
   if (options_.turns == 6) {
     place_hexagons(result.map.uv);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "base/held.h"
 #include "base/task_progress.h"
 #include "linear/dense.h"
 
@@ -195,7 +196,7 @@ VectorXcd lowest_variance(const mesh::Surface& surface, const std::vector<int>& 
   run_long_tasks(execution.workers(), static_cast<int>(candidates.size()), [&](int thread, int i) {
     candidates[i] = finished(parts, kind, std::move(candidates[i].x), steps, [&] { watch(thread); });
   });
-  return basis * as_complex(std::min_element(candidates.begin(), candidates.end(), lower)->x, kind);
+  return basis * as_complex(held(std::ranges::min_element(candidates, lower), candidates).x, kind);
 }
 
 VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormSamples& samples, const Eigen::MatrixXcd& basis,

@@ -133,7 +133,7 @@ Quality joined(const std::vector<const Quality*>& qualities, const std::vector<d
     result.unseen_angle += share * scaled.unseen_angle;
     overlapping += share * scaled.overlapping_part.value_or(0);
     if (scaled.overlapping_part) result.overlapping_part = 0;
-    if (scaled.direction) directions.push_back(&*qualities[k]->direction);
+    if (const auto& direction = qualities[k]->direction) directions.push_back(&*direction);
   }
   result.mean_angle = angles / all;
   for (double* part : {&result.flipped_part, &result.lost_part, &result.unseen_angle}) *part /= all;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/held.h"
 #include "linear/dense.h"
 #include "tiling/notation.h"
 #include "uv/density_objective.h"
@@ -130,7 +131,8 @@ void PoleObjective::prepare(const std::vector<int>& vertices, Index poles, Execu
   if (!has_jacobian(poles)) return;
   std::vector<int> missing = vertices;
   std::erase_if(missing, [&](int v) { return tau_.contains(v); });
-  const MatrixXcd tau = jacobian_->tau(jacobian_->triangles_at(missing));
+  const Jacobian& jacobian = held(jacobian_);
+  const MatrixXcd tau = jacobian.tau(jacobian.triangles_at(missing));
   for (std::size_t i = 0; i < missing.size(); ++i) tau_.emplace(missing[i], tau.col(static_cast<Index>(i)));
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "base/held.h"
 #include "evening/evening.h"
 #include "tiling/poles/pole_objective.h"
 #include "tiling/poles/search_steps.h"
@@ -60,8 +61,8 @@ const std::vector<double> kFromAfar = {1.0, 0.1, 0.01, 1e-3, uv::kDensityFloor};
 
 // The first pole of a form that the other one lacks.
 int lost(const MeromorphicForm& form, const MeromorphicForm& other) {
-  return *std::ranges::find_if(form.poles,
-                               [&](int v) { return std::ranges::find(other.poles, v) == other.poles.end(); });
+  const auto is_missing = [&](int v) { return std::ranges::find(other.poles, v) == other.poles.end(); };
+  return held(std::ranges::find_if(form.poles, is_missing), form.poles);
 }
 
 // Returns the least number of poles that a form on this surface needs.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/chunks.h"
+#include "base/held.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -158,7 +159,7 @@ std::vector<MeromorphicForm> SearchSteps::all_optimised(std::vector<MeromorphicF
 
 MeromorphicForm SearchSteps::best_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors) {
   list = all_optimised(std::move(list), floors);
-  return *std::ranges::min_element(list, {}, [&](const MeromorphicForm& form) { return price(form); });
+  return held(std::ranges::min_element(list, {}, [&](const MeromorphicForm& form) { return price(form); }), list);
 }
 
 }  // namespace holomorph::tiling
