@@ -152,9 +152,10 @@ def test_about_as_many_tiles_have_the_same_cones():
 @pytest.mark.parametrize("turns", [2, 4, 6])
 @pytest.mark.parametrize("mesh", [lambda: families.geodesic_sphere(12), bumps, block_of_three_holes])
 def test_there_are_about_as_many_tiles_as_asked(turns, mesh):
+    """Each number is that of the nearest whole jumps, which may be farther for one than for most."""
     surface = surface_of(mesh())
-    made = tiling(surface, turns, 400)
-    assert made.quality.median_density * surface.area == pytest.approx(400, rel=0.15)
+    found = [tiling(surface, turns, tiles).quality.median_density * surface.area / tiles for tiles in (330, 400, 480)]
+    assert np.median(found) == pytest.approx(1, rel=0.15) and np.allclose(found, 1, atol=0.35)
 
 
 @pytest.mark.parametrize("turns", [2, 4, 6])
