@@ -1,14 +1,14 @@
 """How maps look: thirteen models, the kind of map that each gets, and figures that it keeps.
 
-The figures are those of maps that were looked at under a checker, with a tenth to spare: beyond, a map looks worse, or
-is another one. `pytest -s` prints them, and seconds of the processor.
+The figures are those of maps that were looked at under a checker, with a tenth to spare: beyond, a map looks worse.
+Where some maps are about as good, as on what is symmetric, the last bits of a processor's kernels choose, and the
+figures are the largest of them. `pytest -s` prints them, and seconds of the processor.
 """
 
 import time
 from typing import NamedTuple
 
 import families
-import numpy as np
 import pytest
 from holomorph import Surface, automatic_map
 from limbed import limbs, spikes
@@ -19,17 +19,14 @@ from solved import surface_of
 
 
 class Looks(NamedTuple):
-    """kind of map; poles: least and most; even, extreme: at most the 95 : 5 % and 99 : 1 % ratios of the density;
-    sheared: at most the mean s1 / s2; seams: least and most length, over the square root of the area; words: those of
-    the verdict about size and shear"""
+    """At most: cost to an eye, with that of seams, poles and what does not stand upright; even, extreme: the 95 : 5 %
+    and 99 : 1 % ratios of the density; sheared: the mean s1 / s2"""
 
     kind: str
-    poles: tuple[int, int]
+    cost: float
     even: float
     extreme: float
     sheared: float
-    seams: tuple[float, float]
-    words: str
 
 
 def of_shared(name):
@@ -54,31 +51,20 @@ MODELS = {
 }
 
 LOOKS = {
-    "pretzel": Looks("tiling", (0, 0), 2.4, 4.4, 1.25, (5.0, 5.9), "Fairly even, a fifth is upside down"),
-    "knot": Looks("tiling", (0, 0), 1.6, 1.7, 1.12, (3.5, 4.3), "Even, a tenth is upside down"),
-    "torus": Looks("tiling", (3, 3), 2.8, 5.0, 1.3, (2.8, 3.6), "Fairly even, a fifth is upside down"),
-    "thick torus": Looks(
-        "tiling", (6, 6), 2.7, 8.4, 1.3, (3.3, 4.1), "Fairly even, slightly sheared, a tenth is upside down"
-    ),
-    "torus with a hole": Looks(
-        "tiling", (3, 3), 3.0, 4.4, 1.31, (2.9, 3.6), "Fairly even, slightly sheared, a quarter is upside down"
-    ),
-    "limbs": Looks("tiling", (6, 6), 2.9, 8.5, 1.4, (4.1, 4.8), "Fairly even, slightly sheared, a fifth is sideways"),
-    "spikes": Looks("tiling", (4, 4), 2.6, 5.0, 1.18, (2.8, 3.6), "Fairly even, a third is slanted"),
-    "ball of n-gons": Looks(
-        "tiling", (8, 8), 2.4, 6.6, 1.26, (2.4, 3.1), "Fairly even, slightly sheared, half is slanted"
-    ),
-    "washer": Looks("mixed", (0, 0), 1 + 1e-6, 1 + 1e-6, 1 + 1e-6, (5.8, 7.2), "Even"),
-    "block": Looks("islands", (0, 0), 1.04, 1.08, 1.02, (8.9, 10.9), "Even"),
-    "bowl": Looks("tiling", (4, 4), 2.8, 6.1, 1.17, (2.8, 3.5), "Fairly even"),
-    "bob": Looks("tiling", (3, 3), 3.2, 8.0, 1.36, (2.5, 3.2), "Fairly even, slightly sheared, a fifth is sideways"),
-    "hand": Looks("tiling", (6, 6), 2.2, 5.7, 1.24, (3.8, 4.8), "Even"),
+    "pretzel": Looks("tiling", 2.1, 2.4, 4.4, 1.25),
+    "knot": Looks("tiling", 1.25, 1.6, 1.7, 1.12),
+    "torus": Looks("tiling", 2.05, 2.8, 5.0, 1.3),
+    "thick torus": Looks("tiling", 2.3, 3.2, 8.4, 1.3),
+    "torus with a hole": Looks("tiling", 2.1, 3.0, 4.4, 1.31),
+    "limbs": Looks("tiling", 2.9, 3.1, 8.5, 1.4),
+    "spikes": Looks("tiling", 1.85, 2.6, 5.0, 1.18),
+    "ball of n-gons": Looks("tiling", 2.1, 2.4, 6.6, 1.26),
+    "washer": Looks("mixed", 0.2, 1 + 1e-6, 1 + 1e-6, 1 + 1e-6),
+    "block": Looks("islands", 0.44, 1.04, 1.08, 1.02),
+    "bowl": Looks("tiling", 1.55, 2.8, 6.1, 1.17),
+    "bob": Looks("tiling", 2.7, 3.2, 11.5, 1.36),
+    "hand": Looks("tiling", 1.65, 2.2, 5.7, 1.24),
 }
-
-
-def seam_length(made):
-    start, end = np.moveaxis(made.surface.vertices[made.seams], 1, 0)
-    return np.linalg.norm(end - start, axis=1).sum() / made.surface.area**0.5
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -89,13 +75,8 @@ def test_looks(name):
     seconds = time.process_time() - begin
     quality = made.quality
     low, high = quantiles(quality.area, quality.weights, (0.01, 0.99))
-    words = ", ".join(word for word in made.verdict.sentence.split(", ") if "seam" not in word and "pole" not in word)
-    figures = quality.density_ratio, high / low, quality.mean_angle, seam_length(made)
-    found = Looks(made.kind, len(made.poles), *figures, words)
+    found = Looks(made.kind, made.cost, quality.density_ratio, high / low, quality.mean_angle)
     print(f"\n{name}: {found}, {seconds:.2f} s of the processor")
-    assert (found.kind, found.words) == (expected.kind, expected.words)
-    for field in ("poles", "seams"):
-        least, most = getattr(expected, field)
-        assert least <= getattr(found, field) <= most, field
-    for field in ("even", "extreme", "sheared"):
+    assert found.kind == expected.kind
+    for field in Looks._fields[1:]:
         assert getattr(found, field) <= getattr(expected, field), field
