@@ -7,6 +7,7 @@ from pathlib import Path
 
 import bpy
 
+from .. import native
 from ..native import holomorph
 from .channels import COLOUR, HEIGHT
 
@@ -45,21 +46,26 @@ def save(images, contents, folder):
 
     images, contents : {channel: image}, {channel: bytes of each tile} of each atlas
     """
-    place = Path(bpy.path.abspath(folder))
+    place, names = Path(bpy.path.abspath(folder)), _file_names()
     with holomorph.files.whole_file.folder_beside(place / "baked") as new:
         for of_atlas, files in zip(images, contents):
             for channel, image in of_atlas.items():
                 for index, content in enumerate(files[channel]):
-                    (new / _file(image, channel, str(FIRST_TILE + index))).write_bytes(content)
+                    (new / _file(image, names, channel, str(FIRST_TILE + index))).write_bytes(content)
     for of_atlas in images:
         for channel, image in of_atlas.items():
-            image.filepath_raw = os.path.join(folder, _file(image, channel, "<UDIM>"))  # which loads nothing
+            image.filepath_raw = os.path.join(folder, _file(image, names, channel, "<UDIM>"))  # which loads nothing
             image.unpack(method="REMOVE")
 
 
-def _file(image, channel, tile):
+def _file_names():
+    """{name: file name without its end} of all images: none takes the file of another object's."""
+    return native.module("files.names").told_apart([image.name for image in bpy.data.images], bpy.path.clean_name)
+
+
+def _file(image, names, channel, tile):
     tile = f".{tile}" if image.source == "TILED" else ""
-    return bpy.path.clean_name(image.name) + tile + suffix(channel)
+    return names[image.name] + tile + suffix(channel)
 
 
 def _single(content):

@@ -4,15 +4,17 @@ import csv
 import io
 import json
 import os
+import unicodedata
 
 import pytest
 from any_names import any_entries, any_names
 from batch_runs import command, outputs, run, statuses, torus_obj
 from holomorph.batch import sources
 from holomorph.batch.journal import Journal
-from holomorph.batch.plan import LONGEST, LONGEST_PART, Plan, of_source, told_apart
+from holomorph.batch.plan import LONGEST, Plan, of_source
 from holomorph.batch.recipe import Recipe
 from holomorph.commands.console import shown
+from holomorph.files.names import LONGEST_PART, told_apart
 
 
 @pytest.fixture(scope="module")
@@ -136,6 +138,16 @@ def test_paths(letter):
         assert path.isascii() and len(path) <= LONGEST and not set('<>:"\\|?*') & set(path)
         assert all(0 < len(part) <= LONGEST_PART + 2 and part[-1] not in ". " for part in path.split("/"))
     assert {of_source(path) for path in ("props/chair.obj", "a b.blend")} == {"props/chair.obj", "a b.blend"}
+
+
+def test_names_that_systems_take_for_one_or_for_none():
+    """Letters with accents of two spellings, devices of Windows; every way to name files passes here."""
+    spelt = ["\u00e9", "e\u0301", "E\u0301", "ß", "ss"]
+    paths = told_apart(spelt, str)
+    assert len({unicodedata.normalize("NFC", path).casefold() for path in paths.values()}) == len(spelt)
+    for name in ("con", "NUL.obj", "com1", "lpt9.tar.gz"):
+        assert "^" in of_source(name).partition(".")[0]
+    assert {of_source(name) for name in ("cone.obj", "com", "lpt.obj")} == {"cone.obj", "com", "lpt.obj"}
 
 
 def test_paths_of_deep_folders():

@@ -281,6 +281,19 @@ def test_udim_tiles(tmp_path):
         assert np.abs(sampled(pixels(baked), points.bake - (number, 0), False) - wanted).max() < 2 * STEP
 
 
+@pytest.mark.parametrize("apart", [False, True])
+def test_objects_of_like_names_have_files_of_their_own(tmp_path, apart):
+    """Also of names that become one when they are cut, and where one is baked after the other."""
+    names = ["Part/1", "Part_1", "part 1", "P" * 60, "P" * 61]
+    found = [tiled(torus(name), texture="BRICKS") for name in names]
+    for objects in [[obj] for obj in found] if apart else [found]:
+        select(*objects)
+        assert run(folder=str(tmp_path)) == {"FINISHED"}
+    assert len({path.name.casefold() for path in tmp_path.iterdir()}) == len(names)
+    baked = [obj.material_slots[0].material.node_tree.nodes["Colour"].image for obj in found]
+    assert len({image.filepath_raw for image in baked}) == len(names)
+
+
 def test_packed_udim_tiles():
     scene()
     assert run(images="UDIM") == {"FINISHED"}
