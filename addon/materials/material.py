@@ -5,6 +5,7 @@ The material slots are linked to the object while it is shown, so the mesh keeps
 `uncover` brings them back.
 """
 
+import re
 from dataclasses import dataclass
 
 import bpy
@@ -27,6 +28,7 @@ BEFORE_BAKE = "holomorph_before_bake"  # custom property: slot index -> material
 EMPTY = 0  # instead of a material: the slot was linked to the object, and empty
 AVERAGED = " averaged"  # end of what those show that are averaged over turns
 SHOWS = "holomorph_shows"  # custom property of those that show a texture of the user's: which one, and of which map
+LOOK = "holomorph_look"  # custom property of those that show a map: `Look.numbers`
 BAKED = "holomorph_baked_of"  # and those of them that show baked images: name of the object
 
 
@@ -69,20 +71,33 @@ class Look:
     is_turned: bool = False  # whether the sides of its cuts turn: about the corners of tiles, where the centre lies
 
     @property
+    def numbers(self):
+        """Equal where materials that show the same look the same."""
+        if self.own is None:
+            return repr(self.cells if self.texture == CHECKER else (self.repeats, self.unit_length))
+        return repr((self.repeats, self.own))
+
+    @property
     def repeats(self):
         """Images per UV unit: whole numbers, so that they fit where a map is cut by whole units."""
         return max(1, round(self.cells / cells(self.texture)))
 
 
-def showing(map_name, is_attribute, look):
-    """The material that shows `map_name`; made once, then adjusted. One that shows a material of the user's is a copy
-    of that as it is now."""
-    if look.own is not None:
-        return _showing_own(map_name, is_attribute, look)
+def showing(map_name, is_attribute, look, objects=()):
+    """The material that shows `map_name` to these objects: one with this look; or one that no mesh but theirs shows,
+    adjusted; or a new one. One that shows a material of the user's is a copy of that as it is now."""
+    make = _showing_ours if look.own is None else _showing_own
+    material = make(map_name, is_attribute, look, objects)
+    material[LOOK] = look.numbers
+    return material
+
+
+def _showing_ours(map_name, is_attribute, look, objects):
     name = f"{map_name} {textures.label(look.texture)}" + (" (attribute)" if is_attribute else "")
     name += " (turned)" if look.is_turned else " (tiling)" if look.is_tiling else ""
-    material = bpy.data.materials.get((name, None))
-    is_new = material is None or OURS not in material or material.node_tree is None
+    numbered = re.compile(rf"{re.escape(name)}(\.\d+)?")
+    material = _free([m for m in _ours() if numbered.fullmatch(m.name)], look, objects)
+    is_new = material is None
     if is_new:
         material = bpy.data.materials.new(name)
         material[OURS] = True
@@ -97,7 +112,7 @@ def showing(map_name, is_attribute, look):
     return material
 
 
-def _showing_own(map_name, is_attribute, look):
+def _showing_own(map_name, is_attribute, look, objects):
     own, block = look.own, look.own.block
     shows = f"{own.kind} {own.name} {map_name} {is_attribute} {look.is_tiling}{' turned' * look.is_turned}"
     shows += AVERAGED * (own.averaged != 1)
@@ -106,8 +121,8 @@ def _showing_own(map_name, is_attribute, look):
         material.use_fake_user = False
         user_texture.redirect(material.node_tree, map_name, is_attribute, look.repeats, own)
     else:
-        ours = (m for m in bpy.data.materials if m.get(SHOWS) == shows and m.library is None and m.node_tree)
-        material = own.averaged == 1 and next(ours, None) or bpy.data.materials.new("")
+        ours = [m for m in _ours() if m.get(SHOWS) == shows]
+        material = own.averaged == 1 and _free(ours, look, objects) or bpy.data.materials.new("")
         if OURS not in material:
             user_texture.build_image(material, map_name, is_attribute, look.repeats, own)
         user_texture.adjust(material, look.repeats, own)
@@ -115,6 +130,27 @@ def _showing_own(map_name, is_attribute, look):
         material.name = _free_name(f"{map_name} {own.name}")
         material[OURS], material[SHOWS] = True, shows
     return material
+
+
+def _ours():
+    return [m for m in bpy.data.materials if OURS in m and m.library is None and m.node_tree is not None]
+
+
+def _free(found, look, objects):
+    """The first of these materials that has the look, or that can get it, as no other mesh than those of the objects
+    shows it; None where there is none."""
+    alike = next((material for material in found if material.get(LOOK) == look.numbers), None)
+    if alike is not None or not found:
+        return alike
+    meshes = {obj.data for obj in objects}
+    shown = set().union(*(_shown(obj) for obj in bpy.data.objects if obj.data not in meshes))
+    return next((material for material in found if material not in shown), None)
+
+
+def _shown(obj):
+    """The materials of an object, and those that baked ones took the place of."""
+    own = {slot.material for slot in obj.material_slots}
+    return own.union(getattr(obj.data, "materials", ()), dict(obj.get(BEFORE_BAKE, {})).values())
 
 
 def _free_name(wanted):
@@ -128,8 +164,7 @@ def unused_copies():
     shown = ((m, m.get(SHOWS, "")) for m in bpy.data.materials if m.library is None)
     copies = {m for m, shows in shown if shows.startswith(MATERIAL) or shows.endswith(AVERAGED)}
     for obj in bpy.data.objects if copies else ():
-        copies -= {slot.material for slot in obj.material_slots}
-        copies -= {*getattr(obj.data, "materials", ()), *dict(obj.get(BEFORE_BAKE, {})).values()}
+        copies -= _shown(obj)
     return [block for material in copies for block in (material, *user_texture.groups(material.node_tree))]
 
 

@@ -123,6 +123,7 @@ class Outcome:
     forms: int = 0
     looks: dict = field(default_factory=dict)  # `material.Look`s for all objects, by whether of tilings, and turned
     coverings: dict = field(default_factory=dict)  # materials by what they show
+    objects: list = field(default_factory=list)  # that these are for
 
     @property
     def tiles(self):
@@ -133,7 +134,7 @@ class Outcome:
         """The material that shows a `uv_maps.WrittenMap`, the same for all objects."""
         key = shown.name, shown.kind, look
         if key not in self.coverings:
-            self.coverings[key] = material.showing(shown.name, shown.kind == "attribute", look)
+            self.coverings[key] = material.showing(shown.name, shown.kind == "attribute", look, self.objects)
         return self.coverings[key]
 
     def refuse(self, name, sentence):

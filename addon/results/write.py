@@ -42,15 +42,15 @@ def options_of(dials):
     return WriteOptions(**values)
 
 
-def write(step, targets, results, options, time_has_passed=False):
+def write(step, found, results, options, time_has_passed=False):
     """Writes the maps of every `mapped.MappedObject` and reports every other result; an object that is refused is not
     touched. Gives the `Outcome`.
 
-    step : the `transaction.Step` of the targets' objects
+    found : the `targets.Target`s; step : the `transaction.Step` of their objects
     time_has_passed : Blender was alive during the solve, so each mesh is compared with what was read
     """
-    outcome = Outcome()
-    for target, result in zip(targets, results):
+    outcome = Outcome(objects=targets.objects(found))
+    for target, result in zip(found, results):
         reason = _why_not(target, result, time_has_passed)
         if reason:
             outcome.refuse(target.name, reason)
@@ -80,6 +80,7 @@ def _write_object(step, outcome, target, made, options):
     obj, polygons = target.find(), target.polygons
     if target.makes_object:
         obj = tags.modifier_result(step, obj)
+        outcome.objects.append(obj)
     if made.options.main == mapped.ISLANDS:
         made = packing.packed(step.context, made)
     restore.remember(obj.data)

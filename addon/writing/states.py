@@ -99,8 +99,9 @@ def _plain(value):
 
 
 def materials():
-    """What is adjusted in the node trees of our materials: numbers and images."""
+    """What is adjusted of our materials: properties, and numbers and images in the node trees."""
     ours = [m for m in bpy.data.materials if material.OURS in m and m.library is None and m.node_tree is not None]
+    yield from map(Properties, ours)
     for node in (node for own in ours for node in own.node_tree.nodes):
         if hasattr(node, "image"):
             yield Attributes(node, "image")

@@ -277,3 +277,38 @@ def test_the_redo_panel_says_where_the_tiles_are_automatic(tiles, size, row):
     dials_view.draw(layout, SimpleNamespace(texture="CHECKER", checker=True, tiles=tiles, size=size))
     rows = {name: text for name, text in layout.properties.items() if name in ("tiles", "size")}
     assert rows == dict([row])
+
+
+def look(obj):
+    """What the material of an object shows: its numbers and images."""
+    nodes = obj.material_slots[0].material.node_tree.nodes
+    return [(n.name, n.image if n.type == "TEX_IMAGE" else n.outputs[0].default_value) for n in nodes if has_value(n)]
+
+
+def has_value(node):
+    return node.type in ("TEX_IMAGE", "VALUE")
+
+
+@pytest.mark.parametrize("texture", ["CHECKER", "BRICKS", "IMAGE"])
+@pytest.mark.parametrize("main", ["SEAMLESS", "AUTOMATIC", "BALANCED"])
+def test_a_dial_changes_the_object_that_has_it_and_no_other(texture, main):
+    """Not through the material either, which they share until then, and again when both are mapped."""
+    image = bpy.data.images.new("Wall", 8, 8)
+    image.pack()
+    options = {"texture": texture, "main": main, "size": 0.5} | ({"source": "Wall"} if texture == "IMAGE" else {})
+    first, other, third = torus("First"), torus("Other"), torus("Third")
+    select(first, other, third)
+    assert bpy.ops.uv.holomorphic_maps(**options) == {"FINISHED"}
+    shared, before, stays = first.material_slots[0].material, look(first), uv(other)
+    assert other.material_slots[0].material == shared and look(other) == before
+    first.holomorph_map.size = 0.25
+    own = first.material_slots[0].material
+    assert not first.holomorph_map.refused
+    assert look(other) == before == look(third) and np.array_equal(uv(other), stays)
+    first.holomorph_map.size = 0.125
+    assert first.material_slots[0].material in (own, shared) and look(other) == before
+    first.holomorph_map.size = 0.5
+    assert look(first) == before == look(other)
+    select(first, other, third)
+    assert bpy.ops.uv.holomorphic_maps(**options | {"size": 0.3}) == {"FINISHED"}
+    assert len({obj.material_slots[0].material for obj in (first, other, third)}) == 1
