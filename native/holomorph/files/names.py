@@ -28,7 +28,9 @@ def part(name):
         plain = plain.replace(".", "%2E")
     elif plain[-1] in ". ":
         plain = plain[:-1] + quote(plain[-1], safe="").replace(".", "%2E")
-    return marked(plain, name) if len(plain) > LONGEST_PART or RESERVED.match(plain) else plain
+    if RESERVED.match(plain):
+        plain = f"%{ord(plain[0]):02X}{plain[1:]}"
+    return plain if len(plain) <= LONGEST_PART else marked(plain, name)
 
 
 def marked(plain, name):
