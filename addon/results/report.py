@@ -23,11 +23,9 @@ TEXT = "Holomorphic Report"
 
 def object_report(obj, made, written=(), new_seams=0, write_options=None):
     """One object: its maps as written, the options with which they were, and the report of each part."""
-    solved, given = made.solved, [(part.component.surface, part.map, part.skipped) for part in made.parts]
+    solved = made.solved
+    given = [(one.component.surface, one.map, one.skipped, one.component.note) for one in made.parts]
     about = holomorph.report.parts_report(given, solved.left_out, _repairs(solved), made.options.arrangement)
-    for part, entry in zip(made.parts, about["components"]):
-        if part.component.note:
-            entry["not_followed"] = part.component.note
     dials = asdict(made.options)
     asked = dials.pop("tiling")
     del asked["allowed"], asked["marked"]  # a vertex group and the marks of the object say them
@@ -151,7 +149,7 @@ class Outcome:
         self.done.append(obj.name)
         self.entries.append(entry)
         self.forms = max(self.forms, made.solved.form_count)
-        self.judge(obj, entry)
+        self.judge(obj, made, entry)
         self.problems += _problems(obj, made)
         if target.polygons.faces is None:
             self.notes += _modifier_notes(obj, made.solved)
@@ -163,7 +161,7 @@ class Outcome:
             self.notes.append(f"{obj.name} is a library override: its report is lost when the file is reopened")
         self.notes += [target.note] if target.note else []
 
-    def judge(self, obj, entry):
+    def judge(self, obj, made, entry):
         """Adds the verdict on an object's map: among the problems where no texture can be put on."""
         found, whole = stored.verdicts(entry)[0], entry["whole"]["text"]
         told = ". ".join(filter(None, [whole, *holomorph.quality.verdicts.told(entry)]))
@@ -171,8 +169,8 @@ class Outcome:
         limit = holomorph.quality.verdicts.OVERLAPPING[1]
         overlapping = [
             str(index)
-            for index, part in enumerate(entry["components"], 1)
-            if part["done"] and (part["main_map"]["overlapping_part"] or 0.0) > limit
+            for index, part in enumerate(made.parts, 1)
+            if part.map and (part.map.quality.overlapping_part or 0.0) > limit
         ]
         if overlapping:
             which = _numbered("island", overlapping)

@@ -82,6 +82,7 @@ def report():
         **surface,
         "done": True,
         "area": number,
+        "parts": (ABSENT, count),
         "forms": (ABSENT, count),
         "description": str,
         "main_map": main_map,

@@ -147,7 +147,7 @@ def _summary(entry):
         if part["done"]:
             yield from (f"    {line}" for line in _result_lines(part))
     if len(parts) > SUMMARISED:
-        yield f"... {len(parts) - SUMMARISED} more parts in the report"
+        yield f"... {holomorph.report.part_count(parts[SUMMARISED:])} more parts in the report"
 
 
 def cut_lines(entry):

@@ -14,7 +14,7 @@ from .commands.console import Parser, ended, failed, shown, tell, warn
 from .commands.relief_command import relief
 from .core.value import plain, quoted
 from .files import formats, whole_file
-from .maps.report import repairs_report, whole_report
+from .maps.report import part_count
 from .maps.request import EVENNESS, MAIN_MAPS
 from .mesh.checks import SOLVERS, check_options, check_thresholds
 from .tiling.turned import AUTO, AUTOMATIC, LINES, TURNS, checked_lines
@@ -149,17 +149,12 @@ def mapped(options, recipe, found):
     surface = Surface.read(options.mesh)
     warn(options.mesh, surface.repairs.notes)
     parts = mapping.map_parts(surface, recipe, threads=options.threads)
-    reports = [part.report for part in parts] + mapping.refused_reports(surface)
     report = {
         "holomorph": __version__,
         "mesh": str(options.mesh),
         "faces": len(surface.face_offsets) - 1,
-        **whole_report(
-            [part.map for part in parts if part.map], reports, surface.repairs, mapping.arrangement_of(recipe.maps)
-        ),
-        "repairs": repairs_report(surface.repairs),
         "texture": plain(found and vars(found)),
-        "components": reports,
+        **mapping.report(surface, parts, recipe),
     }
     if options.output and report["verdict"]:
         uv = mapping.main_uv(surface, parts, recipe.maps)
@@ -169,11 +164,11 @@ def mapped(options, recipe, found):
 
 
 def _write(report, options):
-    text = json.dumps(report, indent=1, allow_nan=False) + "\n"
-    if options.report == STANDARD_OUTPUT or not (options.report or options.output):
-        tell(text)
-        return
-    if options.report:
+    if options.report or not options.output:
+        text = json.dumps(report, indent=1, allow_nan=False) + "\n"
+        if options.report in (None, STANDARD_OUTPUT):
+            tell(text)
+            return
         whole_file.write(options.report, text.encode())
     if report["verdict"] and not options.quiet:
         with contextlib.suppress(OSError):  # the files are there, whether or not somebody hears of it
@@ -186,8 +181,8 @@ def _status(report, is_strict):
         return failed(EXIT_REFUSED, not_done[0]["reason"])
     found = Verdict(**report["verdict"])
     if is_strict and not_done:
-        count = len(report["components"])
-        return failed(EXIT_STRICT, f"{len(not_done)} of {count} parts have no map: {not_done[0]['reason']}")
+        count = part_count(report["components"])
+        return failed(EXIT_STRICT, f"{part_count(not_done)} of {count} parts have no map: {not_done[0]['reason']}")
     return failed(EXIT_STRICT, found.sentence) if is_strict and not found.is_fit else 0
 
 

@@ -77,7 +77,7 @@ def test_the_map_is_the_automatic_one(torus):
     for surface in (torus, two_parts(torus)):
         parts, _ = mapped(surface)
         for part, made in zip(parts, holomorph.automatic_maps(surface), strict=True):
-            assert np.array_equal(part.map.uv, made.uv) and part.report["main_map"]["why"] == made.why
+            assert np.array_equal(part.map.uv, made.uv) and part.map.why == made.why
 
 
 def test_a_map_that_is_chosen_is_balanced(torus):

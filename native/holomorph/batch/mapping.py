@@ -1,7 +1,7 @@
 """The maps of one mesh by a recipe: those of its parts, side by side in the UV plane."""
 
 import math
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
@@ -9,9 +9,8 @@ from .._native import Error, TopologyError
 from ..maps import arrangement
 from ..maps.automatic_map import automatic_maps
 from ..maps.automatic_structure import automatic_structure
-from ..maps.late_structure import late_structure
 from ..maps.map import Map
-from ..maps.report import part_report, refused_report, skipped_report
+from ..maps.report import parts_report
 from ..mesh.origin import on_part
 
 
@@ -20,11 +19,10 @@ class Part:
     """A connected part; `reason` says why it has no `map`."""
 
     surface: object
-    structure: object = None
+    structure: object = None  # where the recipe chooses something about it, until there is a map
     map: Map | None = None
     reason: str = ""
-    is_chosen: bool = False  # whether the recipe chooses something about its structure
-    report: dict = field(default_factory=dict)
+    is_chosen: bool = False  # whether that is more than how it is solved
 
 
 def map_parts(surface, recipe, cut_edges=None, threads=None):
@@ -40,10 +38,14 @@ def map_parts(surface, recipe, cut_edges=None, threads=None):
             raise
         except Error as error:
             part.reason = str(error)
-    _map([part for part in parts if part.structure is not None], recipe)
-    for part in parts:
-        part.report = part_report(part.map) if part.map else skipped_report(part.surface, part.reason)
+    _map([part for part in parts if not part.reason], recipe, threads)
     return parts
+
+
+def report(surface, parts, recipe):
+    """What is known of the mesh and its parts, see `parts_report`."""
+    given = [(part.surface, part.map, part.reason, "") for part in parts]
+    return parts_report(given, surface.refused, surface.repairs, arrangement_of(recipe.maps))
 
 
 def main_uv(surface, parts, maps):
@@ -70,11 +72,6 @@ def arrangement_of(maps):
     return arrangement.Arrangement(density=maps.density, rotation=math.radians(maps.rotation), margin=maps.margin)
 
 
-def refused_reports(surface):
-    """The reports of the parts of the file that are not surfaces."""
-    return [refused_report(refused) for refused in surface.refused]
-
-
 def _check_chosen(surface, maps):
     for vertex in (*maps.poles, *maps.rectangle_corners):
         if not on_part(surface, [vertex])[1].all():
@@ -83,12 +80,10 @@ def _check_chosen(surface, maps):
 
 def _solve(part, maps, cut_edges, threads):
     chosen = _choices(part.surface, maps, cut_edges if maps.cut_at_seams else None)
-    options = {"solver": maps.solver, "thresholds": maps.thresholds}
-    options |= {"threads": threads, "memory_limit": maps.memory_limit}
-    is_plain = not any(len(value) for value in chosen.values()) and maps.solver == "auto" and not maps.memory_limit
-    late = late_structure(part.surface, threads) if is_plain else None
-    part.structure = late or automatic_structure(part.surface, **chosen, **options)
     part.is_chosen = maps.solver == "paper" or any(len(value) for value in chosen.values())
+    if part.is_chosen or maps.solver != "auto" or maps.memory_limit:
+        options = {"solver": maps.solver, "thresholds": maps.thresholds, "threads": threads}
+        part.structure = automatic_structure(part.surface, **chosen, memory_limit=maps.memory_limit, **options)
 
 
 def _choices(surface, maps, cut_edges):
@@ -106,15 +101,19 @@ def _choices(surface, maps, cut_edges):
     return chosen
 
 
-def _map(parts, recipe):
+def _map(parts, recipe, threads):
     made = automatic_maps(
         [part.surface for part in parts],
         [part.structure for part in parts],
         main=[_main(part, recipe.maps) for part in parts],
+        threads=threads,
         **_tiling_options(recipe.tiling),
     )
     for part, found in zip(parts, made):
-        part.map, part.reason = (found, "") if isinstance(found, Map) else (None, str(found))
+        if isinstance(found, Map):
+            part.map, part.structure = found, found.structure
+        else:
+            part.reason = str(found)
 
 
 def _main(part, maps):

@@ -9,6 +9,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from ..commands.console import shown
+from ..maps.report import part_count
 from ..quality.verdicts import LEVELS, special, told
 from .errors import DONE
 from .journal import noted
@@ -49,8 +50,8 @@ class Overview:
             "message": shown(record["message"] or "; ".join(filter(None, [*_words(report), _brief(reasons)]))),
             "seconds": record["seconds"],
             "faces": report.get("faces"),
-            "parts": len(report.get("components", [])),
-            "done": len(parts),
+            "parts": part_count(report.get("components", [])),
+            "done": part_count(parts),
             "genus": [part["genus"] for part in parts],
             "loops": [part["boundary_count"] for part in parts],
             "size": whole.get("size_range"),

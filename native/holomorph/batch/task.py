@@ -13,7 +13,7 @@ from .._native import Error, InvalidMesh
 from ..core.value import plain
 from ..files import formats, textures
 from ..maps.conformal_image import conformal_image
-from ..maps.report import repairs_report, whole_report
+from ..maps.report import part_count
 from . import blend, mapping, picture, textured
 from .errors import DONE, REFUSED
 from .recipe import Recipe
@@ -56,7 +56,7 @@ class Task:
         files["report.json"] = (json.dumps(content, indent=1, allow_nan=False) + "\n").encode()
         seconds = time.perf_counter() - start
         verdict = content.get("verdict")
-        skipped = sum(not part["done"] for part in content["components"])
+        skipped = part_count([part for part in content["components"] if not part["done"]])
         record = {"status": status, "message": message, "verdict": verdict and verdict["level"], "skipped": skipped}
         return record | {"seconds": seconds, "processor_seconds": time.process_time() - used, "timings": timings}, files
 
@@ -76,20 +76,14 @@ def _mapped(task):
     surface, seams = _read(task.path, recipe.output.up)
     parts = mapping.map_parts(surface, recipe, seams, task.threads)
     uv = mapping.main_uv(surface, parts, recipe.maps)
-    reports = [part.report for part in parts]
-    timings = [report.pop("timings", None) for report in reports]
-    reports += mapping.refused_reports(surface)
     content = {
         "holomorph": __version__,
         "name": task.name,
         "faces": len(surface.face_offsets) - 1,
-        **whole_report(
-            [part.map for part in parts if part.map], reports, surface.repairs, mapping.arrangement_of(recipe.maps)
-        ),
-        "repairs": repairs_report(surface.repairs),
         "texture": plain(found and vars(found)),
-        "components": reports,
+        **mapping.report(surface, parts, recipe),
     }
+    timings = [entry.pop("timings", None) for entry in content["components"]]
     maps = [part.map for part in parts if part.map]
     is_turned = any(made.turns != 1 for made in maps)
     files = {"picture.png": picture.png(surface, uv, _is_mapped(surface, parts), surface.up, is_turned)}

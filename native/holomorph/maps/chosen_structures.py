@@ -150,7 +150,9 @@ def wanted(part: Surface, choices: Choices) -> list[dict[str, Any]]:
     base = {"solver": choices.solver}
     if choices.are_islands:
         return [_with_fitting_solver(part, keywords) for keywords in (base | {"boundary": "free"}, base)]
-    seams = choices.seams[np.isin(choices.seams, part.vertex_index).all(axis=1)]
+    seams = choices.seams
+    if len(seams):
+        seams = seams[np.isin(seams, part.vertex_index).all(axis=1)]
     found = [base | {"cuts": seams}, base] if len(seams) else [base]
     selection = _selection(part, choices)
     if selection:

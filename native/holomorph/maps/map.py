@@ -121,12 +121,12 @@ class Map(Value):
     def seen(self) -> Seen:
         """What is seen of it besides its squares."""
         soft, hard = self._seam_lengths
-        costs = SEAM * soft + HARD_SEAM * hard + POLE * len(self.poles) + CONE * len(self.cones)
-        poles = len(self.poles) if self.is_tiled or len(self.poles) else None
+        poles, cones = len(self.poles), len(self.cones)
+        costs = SEAM * soft + HARD_SEAM * hard + POLE * poles + CONE * cones
         native = self.surface._native
         folded = 0.0 if self.surface.vertices is None else self._over_size(native.edge_lengths[folds(self.surface)])
         lines = next((made.lines for made in self._tilings), "none")
-        return Seen(costs, soft, hard, poles, self.turns, len(self.cones), lines, folded)
+        return Seen(costs, soft, hard, poles if self.is_tiled or poles else None, self.turns, cones, lines, folded)
 
     @property
     def _seam_lengths(self):

@@ -31,6 +31,7 @@ SAME_SIZE = 1.049  # largest over smallest side of squares of parts that is not 
 TORN = 0.01  # of the length of a side in the map: less of a jump across it is not seen
 NO_AREA = "area"  # in the reasons why faces are left out: of these nobody needs to know
 LISTED = 20  # elements of a repair that a report names
+MOST_ALIKE = 100  # parts that are alike, of which each has an entry of its own
 WORDS = {
     "tiling": "seamless",
     "islands": "in islands",
@@ -154,7 +155,7 @@ def whole_report(
 
 
 def parts_report(
-    parts: Sequence[tuple[Surface, Map | None, str]],
+    parts: Sequence[tuple[Surface, Map | None, str, str]],
     refused: Sequence[Refused],
     repairs: Repairs,
     arrangement: Arrangement = PLAIN_ARRANGEMENT,
@@ -162,12 +163,49 @@ def parts_report(
     """What is known of a mesh: `components`, the reports of its parts and of what was left out, its `repairs`, and the
     `whole_report`.
 
-    parts : surface, map or None, and why there is none
+    parts : surface, map or None, why there is none, and why a choice was not followed
     """
-    done = [part_report(made) if made else skipped_report(surface, reason) for surface, made, reason in parts]
-    entries = done + [refused_report(one) for one in refused]
-    whole = whole_report([made for _, made, _ in parts if made], entries, repairs, arrangement)
+    left_out = [skipped_report(surface, reason) for surface, made, reason, _ in parts if not made]
+    left_out += [refused_report(one) for one in refused]
+    whole = whole_report([made for _, made, *_ in parts if made], left_out, repairs, arrangement)
+    entries = [*_part_reports(parts), *map(refused_report, refused)]
     return {**whole, "repairs": repairs_report(repairs), "components": entries}
+
+
+def part_count(entries: Sequence[dict[str, Any]]) -> int:
+    """How many parts these `components` of a report are."""
+    return sum(entry.get("parts", 1) for entry in entries)
+
+
+def _part_reports(parts):
+    """The report of each part. Where more than `MOST_ALIKE` are alike, the others share the report of the one whose
+    squares differ most, with their number as `parts` and the sums of what adds up. Tilings have points of their own:
+    none is like another."""
+    alike, entries = {}, {}
+    for number, (surface, made, *why) in enumerate(parts):
+        key = number if made and made.is_tiled else (surface.genus, surface.boundary_count, made and made.kind, *why)
+        alike.setdefault(key, []).append(number)
+    for numbers in alike.values():
+        entries |= {number: _entry(*parts[number]) for number in numbers[:MOST_ALIKE]}
+        if others := [parts[number] for number in numbers[MOST_ALIKE:]]:
+            entries[numbers[MOST_ALIKE]] = _shared(others)
+    return [entries[number] for number in sorted(entries)]
+
+
+def _entry(surface, made, reason, note):
+    entry = part_report(made) if made else skipped_report(surface, reason)
+    return entry | ({"not_followed": note} if note else {})
+
+
+def _shared(parts):
+    surfaces, maps = [part[0] for part in parts], [part[1] for part in parts if part[1]]
+    worst = max(parts, key=lambda part: part[1].quality.density_ratio if part[1] else 0.0)
+    every = list(map(_topology, surfaces))
+    sums = {name: sum(one[name] for one in every) for name in ("faces", "vertices", "area")}
+    entry = _entry(*worst) | {"parts": len(parts)} | sums
+    for name in ("flipped", "collapsed") if maps else ():
+        entry["main_map"][f"{name}_triangles"] = sum(int(getattr(made.quality, name).sum()) for made in maps)
+    return entry
 
 
 def repairs_report(repairs: Repairs) -> dict[str, Any]:
@@ -230,7 +268,7 @@ def whole(
     """The `Whole` of a mesh; None where no part has a map.
 
     maps : of the parts that have one
-    parts : the reports of all parts, and of the faces that were left out
+    parts : the reports of those that have none, and of the faces that were left out; others do not count
     repairs : of the mesh
     """
     if not maps:

@@ -27,16 +27,26 @@ def breaks(surface):
 
 
 def cuts(parts: Sequence[Surface]) -> tuple[Integers, Integers, Reals, Reals]:
-    """((2, n) parts, (2, n) sides of their triangles, numbered through, (n,) their length, (n,) how far a seam is seen
-    there) of the edges at which these parts of one mesh are cut open, or from each other."""
-    borders = list(map(_border, parts))
-    of = np.repeat(np.arange(len(parts)), [len(border[0]) for border in borders])
-    sides, keys, lengths, normals = map(np.concatenate, zip(*borders))
+    """((2, n) parts, (2, n) sides of their triangles, numbered through in each, (n,) their length, (n,) how far a seam
+    is seen there) of the edges at which these parts of one mesh are cut open, or from each other."""
+    natives = [part._native for part in parts]
+    first_edges = np.cumsum([0, *(len(native.edge_lengths) for native in natives)])
+    first_sides = np.cumsum([0, *(3 * len(native.triangles) for native in natives)])
+    edges = _joined(native.triangle_edges.ravel() + first for native, first in zip(natives, first_edges))
+    border = np.flatnonzero(np.bincount(edges)[edges] == 1)
+    of = np.searchsorted(first_sides, border, side="right") - 1
+    vertices = _joined(part.vertex_index[native.triangles.ravel()] for part, native in zip(parts, natives))
+    start, end = vertices[border], vertices[next_sides(border)]
+    keys = edge_keys(np.stack([start, end], axis=1), parts[0].given_vertex_count)
+    lengths = _joined(native.edge_lengths for native in natives)[edges[border]]
+    normals = _joined(_native.face_normals(native)[native.triangle_faces] for native in natives)[border // 3]
+    normals = normals * np.where(start < end, 1, -1)[:, None]  # as if all edges ran from the lower vertex on
     order = np.argsort(keys, kind="stable")
     both = np.flatnonzero(keys[order[1:]] == keys[order[:-1]])
     pairs = np.stack([order[both], order[both + 1]])
     one, other = normals[pairs]
-    return of[pairs], sides[pairs], lengths[pairs[0]], _native.seen(_angles(one, -other))
+    sides = border[pairs] - first_sides[of[pairs]]
+    return of[pairs], sides, lengths[pairs[0]], _native.seen(_angles(one, -other))
 
 
 def curvature(surface, is_seam=(), most=np.inf):
@@ -48,16 +58,8 @@ def curvature(surface, is_seam=(), most=np.inf):
     return _native.curvature(surface._native, is_seam, most)
 
 
-def _border(surface):
-    """(sides of triangles on the boundary; names of the edges there, equal for the same vertices of the mesh as given;
-    their lengths; normals of their faces, as if all ran from the lower vertex to the other)."""
-    edges = surface._native.triangle_edges.ravel()
-    sides = np.flatnonzero(np.bincount(edges)[edges] == 1)
-    start, end = surface.vertex_index[surface.triangles.ravel()[np.stack([sides, next_sides(sides)])]]
-    keys = edge_keys(np.stack([start, end], axis=1), surface.given_vertex_count)
-    normals = _native.face_normals(surface._native)[surface.triangle_faces[sides // 3]]
-    normals = normals * np.where(start < end, 1, -1)[:, None]
-    return sides, keys, surface._native.edge_lengths[edges[sides]], normals
+def _joined(arrays):
+    return np.concatenate(list(arrays))
 
 
 def _angles(one, other):

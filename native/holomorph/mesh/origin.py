@@ -46,7 +46,9 @@ class Origin(NamedTuple):
         indices = self.vertex_index, self.face_index, self.corner_index
         own = part.vertex_index, part.face_index, part.corner_index
         vertex_index, *others = map(_in_mesh, indices, own)
-        joined = arrays.frozen(self.joined[np.isin(self.joined[:, 1], vertex_index)])
+        joined = self.joined
+        if len(joined):
+            joined = arrays.frozen(joined[np.isin(joined[:, 1], vertex_index)])
         return Origin(vertex_index, *others, vertex_count, joined=joined, up=self.up)
 
     def lowest(self, vertices):
@@ -80,9 +82,10 @@ def _in_mesh(index, elements):
 def on_part(part, vertices):
     """((n, ...) the part's index of each of these vertices of the mesh as given, any where it has none; (n, ...) bool,
     whether it has the vertex). O((#V + n) log #V)."""
-    index = part.vertex_index
+    vertices, index = part._origin.lowest(np.asarray(vertices, np.int64)), part.vertex_index
+    if not vertices.size:
+        return vertices, vertices.astype(bool)
     order = np.argsort(index, kind="stable")
-    vertices = part._origin.lowest(np.asarray(vertices, np.int64))
     places = order[np.searchsorted(index, vertices, sorter=order).clip(max=len(order) - 1)]
     return places, index[places] == vertices
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import _native
 from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import FilePath, Integers, Reals
@@ -196,9 +197,17 @@ class Surface(Value):
     @property
     def components(self) -> tuple[Surface, ...]:
         """Tuple of the connected components, ordered by their first face, without isolated vertices."""
-        if self._native.component_count == 1 and not len(self._native.isolated_vertices):
-            return (self,)  # not kept: a reference to itself would keep it until garbage collection
-        return self._parts
+        # Not kept where it is itself: a reference to itself would keep it until garbage collection.
+        return (self,) if self._is_component else self._parts
+
+    @cached_property
+    def _is_component(self):
+        return self._native.component_count == 1 and not len(self._native.isolated_vertices)
+
+    @cached_property
+    def _part(self):
+        """The core's value of a component."""
+        return _native.WholePart(self._native, self.up, [])
 
     @cached_property
     def _parts(self):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -77,6 +77,7 @@ class Quality(Value):
         return _native.Quality(**values | {"direction": self.direction and self.direction.of_core})
 
     @classmethod
+    @cache
     def _names(cls):
         return [field.name for field in fields(cls) if not field.name.startswith("_")]
 

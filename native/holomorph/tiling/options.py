@@ -55,7 +55,7 @@ def tile_options(
         tiles=0.0 if tiles is None else real_number(tiles, "tiles", positive=True),
         evenness=checked_evenness(evenness),
         count=count,
-        poles=own_poles(surface, component, chosen)[0],
+        poles=own_poles(surface, component, chosen),
         allowed=own_allowed(allowed, surface, component),
         lattice=generators(lattice),
         is_upright=is_upright,
@@ -65,7 +65,7 @@ def tile_options(
         boundary=boundary,
         max_added=max_added,
         size_counts=size_counts,
-        moves=list(zip(moves, own_poles(surface, component, list(moves.values()))[0])),
+        moves=list(zip(moves, own_poles(surface, component, list(moves.values())))),
         turns=turns,
         lines=lines,
         marked=_own_edges(surface, component, marked),
@@ -76,8 +76,9 @@ def tile_options(
 def part_of(surface, component=None):
     """The core's value of the one component of a surface, whose vertices messages name."""
     component = surface.components[0] if component is None else component
-    labels = [] if component is surface else component.vertex_index.tolist()
-    return _native.WholePart(component._native, component.up, labels)
+    if component is surface:
+        return surface._part
+    return _native.WholePart(component._native, component.up, component.vertex_index.tolist())
 
 
 def _own_edges(surface, component, ends):

@@ -179,8 +179,10 @@ def asked_poles(poles):
 
 
 def own_poles(surface, component, vertices):
-    """Like `own_vertices`; refuses a pole that is given twice."""
-    own = own_vertices(surface, component, vertices, "pole")
+    """The vertices of `own_vertices`; refuses a pole that is given twice."""
+    if not len(vertices):
+        return []
+    own, _ = own_vertices(surface, component, vertices, "pole")
     given, times = np.unique(np.asarray(vertices, int), return_counts=True)
     for vertex in given[times > 1]:
         raise TopologyError(f"pole {vertex} is given twice")
