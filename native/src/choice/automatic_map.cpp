@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "choice/map_search.h"
@@ -81,7 +82,7 @@ bool are_same(const mesh::Surface& a, const mesh::Surface& b) {
 std::vector<Copy> alike_parts(const std::vector<std::vector<Request>>& objects,
                               const std::vector<const Request*>& requests, Execution& execution) {
   std::vector<Copy> result;
-  std::multimap<std::size_t, int> same;  // by number of corners
+  std::unordered_multimap<std::size_t, int> same;  // by a hash of their positions
   for (const std::vector<Request>& object : objects) {
     const int first = static_cast<int>(result.size());
     std::vector<PartPointer> parts;
@@ -99,13 +100,14 @@ std::vector<Copy> alike_parts(const std::vector<std::vector<Request>>& objects,
         continue;
       }
       const mesh::Surface& surface = *object[k].part->surface;
-      const auto [begin, end] = same.equal_range(surface.polygons.corner_vertices.size());
+      const std::size_t hash = hash_of(surface.polygons.vertices);
+      const auto [begin, end] = same.equal_range(hash);
       const auto known = std::find_if(begin, end, [&](const auto& entry) {
         const Request& other = *requests[entry.second];
         return are_same(*other.part->surface, surface) && are_alike(other, object[k]);
       });
       const int index = known == end ? first + k : known->second;
-      if (known == end) same.emplace(surface.polygons.corner_vertices.size(), index);
+      if (known == end && !surface.intrinsic()) same.emplace(hash, index);
       result.push_back({index});
     }
   }
@@ -195,11 +197,13 @@ std::pair<std::optional<int>, SizePolicy> Sizing::map(const std::vector<int>& me
   others.tries = kTries;
   if (leader) others.density = made_[name(*leader)].value->density() / (alike_[*leader].scale * alike_[*leader].scale);
   std::vector<std::pair<Name, double>> wanted;
+  std::map<Name, std::size_t> places;  // in `wanted`
   for (auto k = members.rbegin(); k != members.rend(); ++k) {
     if (made_.contains(name(*k))) continue;
     const double density = on_first(others.density, alike_[*k]);
-    const auto known = std::ranges::find(wanted, name(*k), &std::pair<Name, double>::first);
-    known == wanted.end() ? void(wanted.emplace_back(name(*k), density)) : void(known->second = density);
+    const auto [known, is_new] = places.try_emplace(name(*k), wanted.size());
+    if (is_new) wanted.emplace_back(name(*k), density);
+    wanted[known->second].second = density;
   }
   const std::optional<Window> window = size_.window ? size_.window
                                        : leader     ? std::nullopt

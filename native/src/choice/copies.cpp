@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <memory>
 #include <set>
-#include <string_view>
 #include <unordered_map>
 #include <utility>
 
@@ -136,12 +134,6 @@ class Known {
   double rounding_ = 0;  // the largest of their names
 };
 
-std::size_t hash_of(const mesh::Surface& surface) {
-  const std::string_view bytes(reinterpret_cast<const char*>(surface.triangles.data()),
-                               surface.triangles.size() * sizeof(mesh::Triple));
-  return std::hash<std::string_view>()(bytes);
-}
-
 }  // namespace
 
 std::vector<Copy> copies(const std::vector<PartPointer>& parts, Execution& execution) {
@@ -153,7 +145,7 @@ std::vector<Copy> copies(const std::vector<PartPointer>& parts, Execution& execu
     Execution::count(static_cast<double>(surface.edges.size()));
     execution.report(static_cast<double>(k) / static_cast<double>(parts.size()));
     Shape shape = shape_of(*parts[k], weights);
-    const std::size_t hash = hash_of(surface);
+    const std::size_t hash = hash_of(surface.triangles);
     const auto [begin, end] = alike.equal_range(hash);
     const auto known =
         std::find_if(begin, end, [&](const auto& each) { return each.second.has_triangles_of(surface); });

@@ -70,14 +70,14 @@ class Blocks {
 
   // Sorts a block by (lower, higher, corner): by counting, and then the few sides of each lower vertex.
   void sort(int block) {
-    const int first_vertex = block * size_;
+    const int first_vertex = block * size_, vertices = std::min(size_, vertex_count_ - first_vertex);
     const std::vector<Side> given(begin(block), end(block));
-    std::vector<int> end_of(size_ + 1, 0);
+    std::vector<int> end_of(vertices + 1, 0);
     for (const Side& side : given) ++end_of[side.lower - first_vertex + 1];
     std::partial_sum(end_of.begin(), end_of.end(), end_of.begin());
     Side *const sides = sides_.data() + start_[block], *first = sides;
     for (const Side& side : given) sides[end_of[side.lower - first_vertex]++] = side;
-    for (int v = 0; v < size_; ++v) {
+    for (int v = 0; v < vertices; ++v) {
       std::sort(first, sides + end_of[v], [](const Side& a, const Side& b) {
         return a.higher != b.higher ? a.higher < b.higher : a.directed_corner < b.directed_corner;
       });
