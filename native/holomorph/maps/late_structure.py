@@ -1,4 +1,4 @@
-"""The structure of a part with so many forms that these are solved for only when they are asked for."""
+"""The structure of a part with so many forms that these are solved for only when they are asked for, or with none."""
 
 from __future__ import annotations
 
@@ -31,7 +31,14 @@ class LateStructure(Value):
     @property
     def description(self) -> str:
         """What there is, in one phrase."""
+        if not self.is_large:
+            return self.made.description
         return f"{_native.form_count(part_of(self.part))} forms, too many to solve for"
+
+    @property
+    def is_large(self) -> bool:
+        """Whether it takes long to make."""
+        return _native.has_too_many_forms(part_of(self.part))
 
     @property
     def edges(self) -> Integers:
@@ -61,6 +68,8 @@ class LateStructure(Value):
 
 
 def late_structure(part: Surface, threads: int | None = None) -> LateStructure | None:
-    """The `LateStructure` of a connected part; None where its forms take less than that, or it has no positions,
-    and so no map without them."""
-    return LateStructure(part, part, threads) if _native.has_too_many_forms(part_of(part)) else None
+    """The `LateStructure` of a connected part; None where it has forms that take less than that, or it has no
+    positions, and so no map without them."""
+    core = part_of(part)
+    is_late = _native.is_outline(core) or _native.has_too_many_forms(core)
+    return LateStructure(part, part, threads) if is_late else None

@@ -83,7 +83,7 @@ def part_report(made: Map) -> dict[str, Any]:
     about = {"kind": made.kind, "why": made.why, "evenness": made.evenness}
     about["worst_places"] = {name: place._asdict() for name, place in made.worst_places.items()}
     main_map = map_report(made.coefficients, made.quality, made.verdict) | about
-    if isinstance(made.structure, LateStructure):
+    if isinstance(made.structure, LateStructure) and made.structure.is_large:
         about = {"done": True, **_topology(made.surface), "description": made.structure.description}
         return plain(about | {"forms": 0, "main_map": main_map})
     entry = component_report(made.surface, made.structure, main_map)

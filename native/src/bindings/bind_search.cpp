@@ -234,6 +234,7 @@ void bind_map_objects(py::module_& m) {
   m.def(
       "form_count", [](const Part& part) { return form_count(part); }, "part"_a);
   m.def("has_too_many_forms", &has_too_many_forms, "part"_a);
+  m.def("is_outline", &is_outline, "part"_a);
 }
 
 }  // namespace

@@ -46,10 +46,16 @@ bool has_too_many_forms(const Part& part) {
   return part.has_positions() && seconds >= kMostSeconds + kMostPerTriangle * triangles;
 }
 
+bool is_outline(const Part& part) {
+  const bool is_disk = part.type.genus == 0 && part.type.boundary_count == 1;
+  return is_disk && part.has_positions() && part.area > 0 && part.triangle_count() == part.surface->vertex_count - 2;
+}
+
 MapSearch::MapSearch(Request request, std::shared_ptr<Budget> budget, Execution& execution)
     : request_(std::move(request)),
       budget_(budget ? std::move(budget) : std::make_shared<Budget>(request_.part->triangle_count(), request_.effort)) {
   if (!request_.structure && has_too_many_forms(*request_.part)) final_ = islands_instead(execution);
+  if (!request_.structure && is_outline(*request_.part)) final_ = flat_outline(execution);
   if (final_) return;
   const Budget::Counting counting(*budget_);
   if (!request_.structure) request_.structure = automatic_structure(request_.part, {}, execution);
@@ -64,6 +70,14 @@ MapPointer MapSearch::islands_instead(Execution& execution) {
   if (!is_any || !request_.tiling.poles.is_open()) return nullptr;
   Untiled untiled(request_.part, nullptr, request_.evenness, request_.is_upright(), execution);
   return untiled.instead(std::to_string(form_count(*request_.part)) + " forms, too many to solve for", execution);
+}
+
+// The islands that are taken at once: they need no structure.
+MapPointer MapSearch::flat_outline(Execution& execution) const {
+  if (request_.main != Main::kAutomatic) return nullptr;
+  Untiled untiled(request_.part, nullptr, request_.evenness, request_.is_upright(), execution);
+  const MapPointer flat = untiled.at_once(execution);
+  return flat && !may_be_better(flat->islands().get()) ? flat : nullptr;
 }
 
 // The map where no other is tried.

@@ -26,7 +26,8 @@ class MapSearch {
 
   /// The map whatever the size of squares; null where that decides.
   const MapPointer& final() const { return final_; }
-  /// The structure of the part; null where islands took its place, as its forms would take too long.
+  /// The structure of the part; null where islands took its place, as its forms would take too long, or it
+  /// has none.
   const StructurePointer& structure() const { return request_.structure; }
 
   /// The map of least cost; where that is a tiling, the ones with all the numbers of tiles that were tried.
@@ -50,6 +51,7 @@ class MapSearch {
 
  private:
   MapPointer islands_instead(Execution& execution);
+  MapPointer flat_outline(Execution& execution) const;
   MapPointer found_at_once(Execution& execution);
   std::vector<MapPointer> tried(double density, int tries, bool leads, Execution& execution);
   MapPointer quick(double density, int tries, Execution& execution);
@@ -79,5 +81,8 @@ int form_count(const Part& part);
 /// Whether there are so many that they are solved for only when they are asked for, as all other maps of the part take
 /// less.
 bool has_too_many_forms(const Part& part);
+/// Whether it is a disk with an area, and all its vertices lie on the boundary: it has no forms.
+/// T = 2 V - 2 - B, and B = V
+bool is_outline(const Part& part);
 
 }  // namespace holomorph::choice

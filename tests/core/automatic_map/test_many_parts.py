@@ -6,10 +6,11 @@ import sys
 
 import numpy as np
 import pytest
-from holomorph import Surface, TopologyError, automatic_maps
+from holomorph import Surface, TopologyError, automatic_maps, automatic_structure
 from holomorph.batch import mapping
 from holomorph.batch.recipe import Maps, Recipe
-from holomorph.maps.report import MOST_ALIKE, part_count, parts_report
+from holomorph.maps.late_structure import LateStructure
+from holomorph.maps.report import MOST_ALIKE, part_count, part_report, parts_report
 
 AUTOMATIC = Recipe(maps=Maps(main="automatic"))
 MOST_GROWTH = 1.05  # of calls, for what differs between parts
@@ -82,6 +83,15 @@ def test_parts_with_another_reason_or_note_have_entries_of_their_own():
     components = parts_report(parts, (), surface.repairs)["components"]
     assert [entry.get("parts", 1) for entry in components[MOST_ALIKE:]] == [2, 1, 1]
     assert components[-1]["reason"] == "too flat" and components[-2]["not_followed"] == "the poles lie elsewhere"
+
+
+@pytest.mark.parametrize("corners", [3, 4, 7])
+def test_loose_faces_need_no_structure_until_it_is_asked_for(corners):
+    for found in automatic_maps(leaves(3, corners)):
+        assert found.islands and isinstance(found.structure, LateStructure) and "made" not in vars(found.structure)
+        expected = automatic_structure(found.surface)
+        assert part_report(found)["description"] == expected.description
+        assert found.structure.balanced_coefficients().shape == expected.balanced_coefficients().shape
 
 
 def test_what_refuses_a_part_is_told():
