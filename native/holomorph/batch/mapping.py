@@ -65,7 +65,7 @@ def form_uvs(surface, parts, maps):
 
 def _corner_count(surface):
     """Corners of the file, up to the last one of the surface; `corner_index` of parts counts these."""
-    return int(surface.corner_index.max()) + 1
+    return int(max(surface.corner_index.max(), surface._origin.repeated.max(initial=0))) + 1
 
 
 def arrangement_of(maps):

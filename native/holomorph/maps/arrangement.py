@@ -70,7 +70,7 @@ def arranged(maps: Sequence[Map], corners: int, arrangement: Arrangement = Arran
     Beside a tiling all values are exact in single precision.
     """
     corners = whole_number(corners, "corners", _corner_count(made.surface for made in maps))
-    return _native.arranged(_laid(maps), corners, arrangement._native)
+    return _with_repeated(_native.arranged(_laid(maps), corners, arrangement._native), [made.surface for made in maps])
 
 
 def arranged_form(
@@ -84,7 +84,15 @@ def arranged_form(
             uv = structure.uv(np.eye(structure.form_count, dtype=structure.coefficient_type)[form])
             maps.append(_one(surface, uv, structure.quality(uv).median_density))
     corners = whole_number(corners, "corners", _corner_count(surface for surface, _ in parts))
-    return _native.arranged(maps, corners, arrangement._native)
+    return _with_repeated(_native.arranged(maps, corners, arrangement._native), [surface for surface, _ in parts])
+
+
+def _with_repeated(uv, surfaces):
+    """The UVs, at corners that are one with another one of their face, too."""
+    for surface in surfaces:
+        own, other = surface._origin.repeated.T
+        uv[own] = uv[other]
+    return uv
 
 
 def _laid(maps):
@@ -99,7 +107,8 @@ def _one(surface, uv, density, is_tiled=False, turns=1):
 
 def _corner_count(surfaces):
     """The corners up to the last one of any of the parts."""
-    return max((int(surface.corner_index.max()) + 1 for surface in surfaces), default=0)
+    indices = (index for each in surfaces for index in (each.corner_index, each._origin.repeated))
+    return max((int(index.max()) + 1 for index in indices if index.size), default=0)
 
 
 def unit_length(maps: Sequence[Map], arrangement: Arrangement = Arrangement()) -> float:

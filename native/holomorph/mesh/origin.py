@@ -9,6 +9,7 @@ from ..core.array_types import Integers
 from .edges import are_among
 from .repairs import Cut, Refused, Repairs
 
+NO_FACES = arrays.frozen(np.empty(0, np.int32))
 NO_PAIRS = arrays.frozen(np.empty((0, 2), np.int32))
 
 
@@ -23,6 +24,8 @@ class Origin(NamedTuple):
     cuts: tuple[Cut, ...] = ()
     joined: Integers = NO_PAIRS  # (n, 2) vertices that were joined with a lower one, ascending, and that one
     refused: tuple[Refused, ...] = ()
+    repeated: Integers = NO_PAIRS  # (n, 2) corners that go, with the one of their face that stands for each
+    point_faces: Integers = NO_FACES  # that go, since their corners lie at one or two places
     notes: tuple[str, ...] = ()  # about the file
     up: str = "Z"  # see `Surface.up`
 
@@ -37,6 +40,8 @@ class Origin(NamedTuple):
             tuple(Cut(cut.reason.name, cut.vertices, cut.edges, cut.faces) for cut in part.cuts),
             arrays.frozen(np.array(part.joined_vertices, np.int32).reshape(-1, 2)),
             tuple(Refused(entry.faces, entry.reason) for entry in part.refused),
+            arrays.frozen(np.array(part.repeated_corners, np.int32).reshape(-1, 2)),
+            part.point_faces,
             tuple(part.notes),
             up,
         )
@@ -46,10 +51,8 @@ class Origin(NamedTuple):
         indices = self.vertex_index, self.face_index, self.corner_index
         own = part.vertex_index, part.face_index, part.corner_index
         vertex_index, *others = map(_in_mesh, indices, own)
-        joined = self.joined
-        if len(joined):
-            joined = arrays.frozen(joined[np.isin(joined[:, 1], vertex_index)])
-        return Origin(vertex_index, *others, vertex_count, joined=joined, up=self.up)
+        joined, repeated = _led_to(self.joined, vertex_index), _led_to(self.repeated, others[-1])
+        return Origin(vertex_index, *others, vertex_count, joined=joined, repeated=repeated, up=self.up)
 
     def lowest(self, vertices):
         """Vertices of the mesh as given; of those that were joined, the one that stands for them."""
@@ -63,7 +66,7 @@ class Origin(NamedTuple):
         """The `Repairs` of the native surface."""
         return Repairs(
             _in_mesh(self.face_index, native.reversed_faces),
-            _in_mesh(self.face_index, native.zero_area_faces),
+            _joined_faces(_in_mesh(self.face_index, native.zero_area_faces), self.point_faces),
             _in_mesh(self.vertex_index, native.isolated_vertices),
             self.cuts,
             arrays.frozen(self.joined[:, 0]),
@@ -73,6 +76,15 @@ class Origin(NamedTuple):
 
 
 AS_GIVEN = Origin()
+
+
+def _led_to(pairs, own):
+    """The pairs whose second element is among these."""
+    return arrays.frozen(pairs[np.isin(pairs[:, 1], own)]) if len(pairs) else pairs
+
+
+def _joined_faces(one, other):
+    return arrays.frozen(np.sort(np.concatenate([one, other]))) if len(other) else one
 
 
 def _in_mesh(index, elements):

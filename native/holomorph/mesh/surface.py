@@ -30,13 +30,14 @@ class Surface(Value):
     ----------
     vertices : (#V, 3) reals; or, without faces, a mesh of trimesh, meshio, PyVista or Open3D, or any object that has
         such arrays
-    faces : (#F, 3) or (#F, 4) integers, or a list of lists of any sizes
+    faces : (#F, n) integers, or a list of lists of any sizes
     strict : refuse the whole mesh for any bad element. Else a mesh that is not a surface is cut until it is one: each
         fan of faces gets a vertex of its own, and `repairs.cuts` says where and why. Polygons and corners stay what
         they are. `refused` lists faces that are left out: those of fewer than three vertices, with coordinates that
         are not finite, at a vertex that is more than 1e9 times as far away as the mesh is large, or of parts without
-        area. Faces whose sides have no neighbour and run between the same places, in single precision, in opposite
-        directions are joined, see `repairs.joined_vertices`. Elements are then renumbered, see `vertex_index`
+        area. Faces whose sides have no neighbour and run between the same places, up to a millionth of the median side,
+        in opposite directions are joined, see `repairs.joined_vertices`; so are the ends of such a side without length.
+        A corner twice in a row is one. Elements are then renumbered, see `vertex_index`
 
     Raises
     ------

@@ -55,6 +55,8 @@ struct Part {
   std::vector<mesh::Cut> cuts = {};
   std::vector<mesh::Pair> joined_vertices = {};
   std::vector<mesh::RefusedFaces> refused = {};
+  std::vector<mesh::Pair> repeated_corners = {};
+  std::vector<int> point_faces = {};
   std::vector<std::string> notes = {};
 };
 
@@ -67,6 +69,8 @@ Part as_part(mesh::CutSurface part) {
   result.cuts = std::move(part.cuts);
   result.joined_vertices = std::move(part.joined_vertices);
   result.refused = std::move(part.refused);
+  result.repeated_corners = std::move(part.repeated_corners);
+  result.point_faces = std::move(part.point_faces);
   return result;
 }
 
@@ -108,11 +112,13 @@ struct FileMesh {
       mesh::Surface surface = mesh::make_surface(std::move(polygons), execution);
       mesh::refuse_wild_vertices(surface.polygons);
       const int count = surface.vertex_count;
-      return {std::move(surface), {}, {}, {}, count, {}, {}, {}};
+      return {std::move(surface), {}, {}, {}, count, {}, {}, {}, {}, {}};
     });
     if (!file.face_index.empty()) {
       number_as_in_file(cut.face_index, file.face_index);
       number_as_in_file(cut.corner_index, file.corner_index);
+      if (!cut.point_faces.empty()) number_as_in_file(cut.point_faces, file.face_index);
+      for (mesh::Pair& pair : cut.repeated_corners) pair = {file.corner_index[pair[0]], file.corner_index[pair[1]]};
       for (mesh::RefusedFaces& refused : cut.refused) number_as_in_file(refused.faces, file.face_index);
       for (mesh::Cut& each : cut.cuts) {
         if (!each.faces.empty()) number_as_in_file(each.faces, file.face_index);
@@ -187,6 +193,10 @@ void bind_parts(py::module_& m) {
           "joined_vertices",
           [](const py::object& self) { return view(self.cast<const Part&>().joined_vertices, self); })
       .def_readonly("refused", &Part::refused)
+      .def_property_readonly(
+          "repeated_corners",
+          [](const py::object& self) { return view(self.cast<const Part&>().repeated_corners, self); })
+      .def_property_readonly("point_faces", [](const Part& part) { return copy(part.point_faces); })
       .def_readonly("notes", &Part::notes);
 }
 

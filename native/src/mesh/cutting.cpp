@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <numeric>
 #include <utility>
 
 #include "base/errors.h"
@@ -122,9 +123,34 @@ CutSurface numbered(UsableFaces usable, const Plan& plan, Execution& execution) 
   return result;
 }
 
+// Makes corners that are one, or lie at the ends of a side that is a point, one, where a face is left.
 CutSurface cut(UsableFaces usable, Execution& execution) {
+  std::vector<int> vertex = without_point_sides(usable.part.polygons);
+  PolygonPart part = usable.part;
+  for (int& v : part.polygons.corner_vertices) v = vertex[v];
+  RepeatedCorners repeated = merge_repeated_corners(part.polygons, part.face_index, part.corner_index);
+  if (part.face_index.empty()) {
+    part = usable.part;
+    repeated = {};
+    std::iota(vertex.begin(), vertex.end(), 0);
+  }
+  std::vector<Pair> joined;
+  for (int v = 0; v < static_cast<int>(vertex.size()); ++v) {
+    if (vertex[v] != v) joined.push_back({part.vertex_index[v], part.vertex_index[vertex[v]]});
+  }
+  usable.part = std::move(part);
   const Plan plan = welded_plan(usable.part.polygons);
-  return numbered(std::move(usable), plan, execution);
+  CutSurface result = numbered(std::move(usable), plan, execution);
+  const std::vector<Pair> further = result.joined_vertices;
+  for (Pair& pair : joined) {  // where the vertex that stands for it was joined with a lower one in its turn
+    const auto found = std::lower_bound(further.begin(), further.end(), Pair{pair[1], -1});
+    if (found != further.end() && (*found)[0] == pair[1]) pair[1] = (*found)[1];
+    result.joined_vertices.push_back(pair);
+  }
+  make_ascending(result.joined_vertices);
+  result.repeated_corners = std::move(repeated.corners);
+  result.point_faces = std::move(repeated.faces);
+  return result;
 }
 
 // #components whether all triangles are degenerate.

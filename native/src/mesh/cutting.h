@@ -42,14 +42,17 @@ struct CutSurface {
   /// all have its index, and a vertex joined from several has the lowest of theirs.
   std::vector<int> vertex_index, face_index, corner_index;
   int given_vertex_count = 0;
-  std::vector<Cut> cuts;              ///< by reasons
-  std::vector<Pair> joined_vertices;  ///< given vertices that became one with a lower one, and that one; ascending
-  std::vector<RefusedFaces> refused;  ///< faces that are left out, by reasons
+  std::vector<Cut> cuts;               ///< by reasons
+  std::vector<Pair> joined_vertices;   ///< given vertices that became one with a lower one, and that one; ascending
+  std::vector<RefusedFaces> refused;   ///< faces that are left out, by reasons
+  std::vector<Pair> repeated_corners;  ///< given corners that go, see `merge_repeated_corners`, and those for them
+  std::vector<int> point_faces;        ///< given faces that go, since their corners lie at one or two places
 };
 
 /// Makes a surface as `make_surface` does, but cuts a mesh that `make_surface` refuses: each fan of faces gets its
 /// own vertex. Leaves out faces with fewer than three vertices, with coordinates that are not finite or with wild
-/// vertices, and parts without area.
+/// vertices, and parts without area. Corners of a face that follow one another at one vertex are one, and so are the
+/// ends of a side that has neither a neighbour nor a length.
 ///
 /// Vertices are joined here, for every door: at sides without a neighbour that run between the same places
 /// (first_at_place) in opposite directions. Faces that lie back to back stay two. So a mesh whose vertices are apart

@@ -6,14 +6,21 @@
 #include <tuple>
 #include <utility>
 
+#include "mesh/input_filter.h"
 #include "mesh/polygon_edges.h"
 #include "mesh/union_find.h"
 
 namespace holomorph::mesh {
 namespace {
 
-// x / 2^exponent, at most 2, in single precision; -0 becomes 0.
-float rounded(double x, int exponent) { return static_cast<float>(std::ldexp(x, -exponent)) + 0.0F; }
+constexpr double kOfSide = 0x1p-20;  // of the median side: points that are nearer are at one place
+constexpr double kShift =
+    0x1.a827999fcef32p-2;             // of the grid, irrational: decimals and floats lie on none of its borders
+constexpr double kOfPlace = 0x1p-48;  // of the largest coordinate: what sums of a few coordinates are off by
+
+double largest_difference(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
+}
 
 // @param vertices #C vertex of each corner
 Plan planned(const Polygons& mesh, const std::vector<int>& vertices) {
@@ -49,7 +56,8 @@ struct LoneSide {
 
 // Those that could have a partner at one place, ordered by places. Labels keep faces back to back apart.
 std::vector<LoneSide> by_places(const Polygons& mesh, const SideJoins& joins) {
-  const std::vector<int> first = first_at_place(mesh.vertices), next = next_corners(mesh), face = corner_faces(mesh);
+  const std::vector<int> first = first_at_place(mesh.vertices, spacing(mesh));
+  const std::vector<int> next = next_corners(mesh), face = corner_faces(mesh);
   std::vector<int> places;
   for (const int v : mesh.corner_vertices) places.push_back(first[v]);
   const std::vector<int> label = corner_labels(places, mesh.face_offsets).label;
@@ -140,20 +148,103 @@ class Welder {
   std::vector<char> is_barred_;  // #V
 };
 
+template <class Index>
+RepeatedCorners merged(BasicPolygons<Index>& mesh, std::vector<int>& face_index, std::vector<int>& corner_index) {
+  RepeatedCorners found;
+  std::vector<Index>& vertices = mesh.corner_vertices;
+  std::size_t corners = 0, faces = 0;  // that are left, moved to the front
+  Index begin = 0;
+  for (std::size_t f = 0; f + 1 < mesh.face_offsets.size(); ++f) {
+    const Index end = mesh.face_offsets[f + 1];
+    const std::size_t first = corners, pairs = found.corners.size();
+    for (Index c = begin; c != end; ++c) {
+      if (end - begin >= 3 && vertices[c] == vertices[c == begin ? end - 1 : c - 1]) {
+        found.corners.push_back({corner_index[c], corners > first ? corner_index[corners - 1] : -1});
+        continue;
+      }
+      vertices[corners] = vertices[c];
+      corner_index[corners++] = corner_index[c];
+    }
+    if (end - begin >= 3 && corners - first < 3) {
+      found.faces.push_back(face_index[f]);
+      found.corners.resize(pairs);
+      corners = first;
+    } else {
+      for (std::size_t i = pairs; i < found.corners.size(); ++i) {
+        if (found.corners[i][1] < 0) found.corners[i][1] = corner_index[corners - 1];
+      }
+      face_index[faces] = face_index[f];
+      mesh.face_offsets[++faces] = static_cast<Index>(corners);
+    }
+    begin = end;
+  }
+  face_index.resize(faces);
+  corner_index.resize(corners);
+  vertices.resize(corners);
+  mesh.face_offsets.resize(faces + 1);
+  return found;
+}
+
 }  // namespace
 
-std::vector<int> first_at_place(const std::vector<std::array<double, 3>>& vertices) {
+double spacing(const Polygons& mesh) {
+  const std::vector<int> next = next_corners(mesh);
+  std::vector<double> sides(next.size());
+  double largest = 0;
+  for (std::size_t c = 0; c < next.size(); ++c) {
+    const auto& point = mesh.vertices[mesh.corner_vertices[c]];
+    sides[c] = largest_difference(point, mesh.vertices[mesh.corner_vertices[next[c]]]);
+    largest = std::max(largest, largest_difference(point, {}));
+  }
+  const auto middle = sides.begin() + std::ssize(sides) / 2;
+  std::nth_element(sides.begin(), middle, sides.end());
+  const double found = std::max(kOfSide * *middle, kOfPlace * largest);
+  return found > 0 ? std::ldexp(1.0, std::ilogb(found)) : 1.0;  // a power of two: division by it is exact
+}
+
+std::vector<int> without_point_sides(const Polygons& mesh) {
+  const std::vector<int> next = next_corners(mesh);
+  const auto length = [&](int c) {
+    return largest_difference(mesh.vertices[mesh.corner_vertices[c]], mesh.vertices[mesh.corner_vertices[next[c]]]);
+  };
+  std::vector<Pair> sides;
+  for (std::size_t f = 0; f + 1 < mesh.face_offsets.size(); ++f) {
+    double longest = 0;
+    for (int c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c) longest = std::max(longest, length(c));
+    for (int c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c) {
+      const int v = mesh.corner_vertices[c], w = mesh.corner_vertices[next[c]];
+      if (v != w && length(c) <= std::max(longest / kWild, kOfPlace * largest_difference(mesh.vertices[v], {})))
+        sides.push_back({std::min(v, w), std::max(v, w)});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  UnionFind joined(mesh.vertices.size());
+  for (auto begin = sides.begin(), end = begin; begin != sides.end(); begin = end) {
+    end = std::upper_bound(begin, sides.end(), *begin);
+    if (end - begin == 1) joined.join((*begin)[0], (*begin)[1]);
+  }
+  std::vector<int> result(mesh.vertices.size());
+  for (int v = 0; v < static_cast<int>(result.size()); ++v) result[v] = joined.lowest(v);
+  return result;
+}
+
+RepeatedCorners merge_repeated_corners(Polygons& mesh, std::vector<int>& face_index, std::vector<int>& corner_index) {
+  return merged(mesh, face_index, corner_index);
+}
+RepeatedCorners merge_repeated_corners(GivenPolygons& mesh, std::vector<int>& face_index,
+                                       std::vector<int>& corner_index) {
+  return merged(mesh, face_index, corner_index);
+}
+
+std::vector<int> first_at_place(const std::vector<std::array<double, 3>>& vertices, double spacing) {
   struct Point {
-    std::array<float, 3> place;
+    std::array<double, 3> place;
     int vertex;
     bool operator<(const Point& other) const { return std::tie(place, vertex) < std::tie(other.place, other.vertex); }
   };
-  double largest = 0;
-  for (const auto& [x, y, z] : vertices) largest = std::max({largest, std::abs(x), std::abs(y), std::abs(z)});
-  const int exponent = largest > 0 ? std::ilogb(largest) : 0;  // a power of two: it moves no digit
   std::vector<Point> points(vertices.size());
   for (int v = 0; v < static_cast<int>(vertices.size()); ++v) {
-    for (int k = 0; k < 3; ++k) points[v].place[k] = rounded(vertices[v][k], exponent);
+    for (int k = 0; k < 3; ++k) points[v].place[k] = std::floor(vertices[v][k] / spacing + kShift);
     points[v].vertex = v;
   }
   std::sort(points.begin(), points.end());
@@ -174,7 +265,8 @@ bool meets_itself(const Surface& surface) {
   for (int v = 0; v < surface.vertex_count; ++v) {
     if (is_open[v] != 0) points.push_back(surface.polygons.vertices[v]);
   }
-  const std::vector<int> first = first_at_place(points);
+  if (points.empty()) return false;
+  const std::vector<int> first = first_at_place(points, spacing(surface.polygons));
   return std::adjacent_find(first.begin(), first.end(), std::greater_equal<>()) != first.end();
 }
 

@@ -157,14 +157,26 @@ def cuts_by_reason(surface):
     return {cut.reason: cut for cut in surface.repairs.cuts}
 
 
-def check_indices(surface, mesh):
+def without_repeats(mesh):
+    """The mesh whose corners follow no other one at their vertex, and the corners of the given one that these are."""
+    before = np.arange(len(mesh.corners)) - 1
+    before[mesh.offsets[:-1]] = mesh.offsets[1:] - 1
+    is_kept = mesh.corners != mesh.corners[before]
+    offsets = np.concatenate([[0], np.cumsum(is_kept)])[mesh.offsets]
+    return replace(mesh, corners=mesh.corners[is_kept], offsets=offsets), np.flatnonzero(is_kept)
+
+
+def check_indices(surface, given):
     """Every element is the one that its index names."""
+    mesh, kept = without_repeats(given)
+    corner_index = np.searchsorted(kept, surface.corner_index)
+    assert (kept[corner_index] == surface.corner_index).all()
     assert (surface.vertices == mesh.vertices[surface.vertex_index]).all()
-    assert (surface.vertex_index[surface.corner_vertices] == mesh.corners[surface.corner_index]).all()
+    assert (surface.vertex_index[surface.corner_vertices] == mesh.corners[corner_index]).all()
     assert (np.diff(surface.face_offsets) == np.diff(mesh.offsets)[surface.face_index]).all()
     starts = mesh.offsets[surface.face_index]
     within = np.arange(len(surface.corner_index)) - np.repeat(surface.face_offsets[:-1], np.diff(surface.face_offsets))
-    assert (surface.corner_index == np.repeat(starts, np.diff(surface.face_offsets)) + within).all()
+    assert (corner_index == np.repeat(starts, np.diff(surface.face_offsets)) + within).all()
     assert (np.diff(surface.vertex_index) >= 0).all()
 
 
@@ -188,14 +200,14 @@ def test_the_result_is_a_surface_of_all_faces(name):
 @pytest.mark.parametrize("name", BAD)
 def test_nothing_is_cut_without_a_reason(name):
     """Two faces that have an edge alone keep it, unless a cut names it or one of them."""
-    mesh = BAD[name]
-    surface = lenient(mesh)
+    surface = lenient(BAD[name])
+    mesh, kept = without_repeats(BAD[name])
     cuts = cuts_by_reason(surface)
-    assert cuts or name.startswith("soup")
+    assert cuts or name.startswith("soup") or name == "vertex again at once"
     edges = {tuple(pair) for cut in cuts.values() for pair in cut.edges.tolist()}
     apart = {int(f) for cut in cuts.values() for f in cut.faces} | {int(f) for r in surface.refused for f in r.faces}
     vertex_of = np.full(len(mesh.corners), -1)
-    vertex_of[surface.corner_index] = surface.corner_vertices
+    vertex_of[np.searchsorted(kept, surface.corner_index)] = surface.corner_vertices
     for pair, sides in sides_by_edge(mesh.corners, mesh.offsets).items():
         own = [side for side in sides if side[0] not in apart]
         if len(own) == 2 and len(sides) == 2 and pair not in edges:

@@ -120,3 +120,30 @@ def test_no_part_gets_only_one_side():
     assert [cut.reason for cut in surface.repairs.cuts] == ["one_sided"]
     again = read(families.polygons(surface.vertices, np.split(surface.corner_vertices, surface.face_offsets[1:-1])))
     assert again.is_whole and topology(again) == topology(surface)
+
+
+@pytest.mark.parametrize("far", [[0, 0, 0], [1e6, 0, 0], [5e5, 4.6e6, 100], [-3e8, 1e8, 0]])
+def test_sheets_stay_apart_wherever_they_lie(far):
+    """At 300,000 km a double has 6e-8 m."""
+    sheet = families.cylinder(10, 4)
+    points = np.concatenate([sheet.vertices, sheet.vertices * [1.1, 1.1, 1]]) + far
+    other = families.mirrored(sheet)
+    corners = np.concatenate([sheet.corners, other.corners + len(sheet.vertices)])
+    both = replace(
+        sheet,
+        vertices=points,
+        corners=corners,
+        offsets=np.concatenate([sheet.offsets, sheet.offsets[-1] + other.offsets[1:]]),
+    )
+    assert len(read(both).components) == 2 and not len(read(both).repairs.joined_vertices)
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
+@pytest.mark.parametrize("far", [0.0, 1e3, 1e6])
+def test_charts_are_joined_wherever_they_lie(far, scale):
+    """Up to the rounding of the place."""
+    body = BODIES["torus"]
+    loose = split(body, charts(body))
+    noise = np.random.default_rng(1).normal(size=loose.vertices.shape)
+    points = scale * (loose.vertices + far) * (1 + 2.0**-53 * noise)
+    assert topology(read(replace(loose, vertices=points))) == topology(read(body))

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
+
+#include "mesh/welding.h"
 
 namespace holomorph::mesh {
 namespace {
@@ -49,33 +52,17 @@ class Weld {
 GivenPolygons welded(const GivenPolygons& given) {
   const auto exists = [&](std::int64_t v) { return v >= 0 && v < std::ssize(given.vertices); };
   if (!std::all_of(given.corner_vertices.begin(), given.corner_vertices.end(), exists)) return given;
-  GivenPolygons mesh;
-  Weld weld(given.corner_vertices.size());
-  mesh.face_offsets.push_back(0);
-  for (std::size_t f = 0; f + 1 < given.face_offsets.size(); ++f) {
-    const auto first = mesh.corner_vertices.size();
-    std::vector<int>& corners = mesh.file.corner_index;
-    for (auto c = given.face_offsets[f]; c < given.face_offsets[f + 1]; ++c) {
-      const std::int64_t welded = weld(given.vertices[given.corner_vertices[c]]);
-      if (mesh.corner_vertices.size() > first && mesh.corner_vertices.back() == welded) continue;
-      mesh.corner_vertices.push_back(welded);
-      corners.push_back(static_cast<int>(c));
-    }
-    while (mesh.corner_vertices.size() > first + 1 && mesh.corner_vertices.back() == mesh.corner_vertices[first])
-      mesh.corner_vertices.pop_back();
-    const bool collapsed = mesh.corner_vertices.size() - first < 3;
-    if (collapsed && given.face_offsets[f + 1] - given.face_offsets[f] >= 3) {
-      mesh.corner_vertices.resize(first);
-    } else {
-      mesh.face_offsets.push_back(static_cast<std::int64_t>(mesh.corner_vertices.size()));
-      mesh.file.face_index.push_back(static_cast<int>(f));
-    }
-    corners.resize(mesh.corner_vertices.size());
-  }
+  GivenPolygons mesh = given;
+  Weld weld(mesh.corner_vertices.size());
+  for (std::int64_t& v : mesh.corner_vertices) v = weld(given.vertices[v]);
   mesh.vertices = std::move(weld.points);
-  mesh.file.first_number = given.file.first_number;
-  mesh.file.notes = given.file.notes;
-  if (mesh.corner_vertices.size() == given.corner_vertices.size()) mesh.file.face_index = mesh.file.corner_index = {};
+  std::vector<int>&faces = mesh.file.face_index, &corners = mesh.file.corner_index;
+  faces.resize(given.face_offsets.size() - 1);
+  corners.resize(given.corner_vertices.size());
+  std::iota(faces.begin(), faces.end(), 0);
+  std::iota(corners.begin(), corners.end(), 0);
+  merge_repeated_corners(mesh, faces, corners);
+  if (mesh.corner_vertices.size() == given.corner_vertices.size()) faces = corners = {};
   return mesh;
 }
 
