@@ -107,6 +107,56 @@ def test_path_that_is_none(path):
         Surface.read(path)
 
 
+# ---- as other programs write them ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "head", ["OFF20 19 0", "OFF 20 19 0", "COFF20 19 0", "OFF20\t19 0\r", "# of an archive\nOFF20 19 0"]
+)
+def test_the_counts_of_an_off_file_follow_its_keyword(head, tmp_path):
+    lines = off(MIXED).decode().splitlines()
+    text = "\n".join([head, *lines[2:]])
+    assert Surface.read(written(tmp_path, "glued.off", text.encode())).genus == 1
+
+
+@pytest.mark.parametrize("word", ["-1.#IND", "1.#QNAN", "1.#SNAN00", "1.#INF", "-1.#INF000", "nan(ind)", "-nan", "inf"])
+@pytest.mark.parametrize("kind", ["obj", "off", "ply", "stl"])
+def test_what_is_no_number_costs_its_faces_alone(kind, word, tmp_path):
+    text = {"obj": OBJ, "off": OFF, "ply": PLY, "stl": STL}[kind].decode()
+    pattern = {"obj": r"(?m)^v \S+", "off": r"(?m)^\S+\.\S+", "ply": r"(?<=end_header\n)\S+", "stl": r"vertex \S+"}[
+        kind
+    ]
+    new = {"obj": "v ", "stl": "vertex "}.get(kind, "") + word
+    surface = Surface.read(written(tmp_path, f"odd.{kind}", re.sub(pattern, new, text, count=1).encode()))
+    (refused,) = surface.refused
+    assert ("infinite" if "inf" in word.lower() else "not a number") in refused.reason
+    assert 0 < len(refused.faces) < 10
+
+
+@pytest.mark.parametrize(("written_as", "value"), [("1D+2", 100), ("2.5d-1", 0.25), ("3E1", 30), ("7,", 7), ("+4.", 4)])
+def test_numbers_as_fortran_and_tables_have_them(written_as, value, tmp_path):
+    text = f"v {written_as} 0 0\nv 0,\t1, 0\nv 0 0 1\r\nf 1 2 3\n"
+    assert Surface.read(written(tmp_path, "numbers.obj", text.encode())).vertices[0, 0] == value
+
+
+def test_a_decimal_comma_is_told(tmp_path):
+    with pytest.raises(InvalidMesh, match="line 1.*'1,5': numbers need decimal points"):
+        Surface.read(written(tmp_path, "comma.obj", b"v 1,5 0 0\n"))
+
+
+def test_a_comment_may_follow_a_number(tmp_path):
+    text = b"v 1.0#one\nv 0 1 0 # two\nv 0 0 1\n".replace(b"1.0#one", b"1. 0 0#one") + b"f 1 2 3#face\n"
+    assert Surface.read(written(tmp_path, "comments.obj", text)).vertices[0].tolist() == [1, 0, 0]
+
+
+@pytest.mark.parametrize("name", ["Part", "_part", "-1", "", " part"])
+def test_the_name_of_a_solid_may_follow_at_once(name, tmp_path):
+    text = stl_text(TRIANGLES).decode().splitlines()
+    text = [f"solid{name}", *text[1:-1], f"endsolid{name}"]
+    surface = Surface.read(written(tmp_path, "named.stl", "\n".join(text).encode()))
+    assert surface.genus == 1 and not surface.repairs.notes
+
+
 # ---- malformed files -----------------------------------------------------------------------------
 
 

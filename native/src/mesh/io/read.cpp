@@ -96,10 +96,13 @@ std::vector<std::string> read_header(const FileText& file, Scanner& scan) {
     if (keyword.starts_with(prefix)) keyword.remove_prefix(prefix.size());
   if (keyword == "4OFF" || keyword == "nOFF" || keyword == "4nOFF")
     ahead.fail("the vertices of the file do not have 3 dimensions (" + std::string(whole) + ")");
-  if (keyword != "OFF") ahead.fail("an OFF file starts with OFF, but found " + quoted(whole));
+  const auto counts = keyword.substr(std::min<std::size_t>(keyword.size(), 3));  // OFF8 6 0, of old archives
+  if (!keyword.starts_with("OFF") || counts.find_first_not_of("0123456789") != std::string_view::npos)
+    ahead.fail("an OFF file starts with OFF, but found " + quoted(whole));
   Scanner after = ahead;
   if (after.word() == "BINARY") after.fail("binary OFF files cannot be read; save the mesh as text");
-  scan = ahead;
+  scan.at_end();  // past what precedes the keyword
+  scan.word(whole.size() - counts.size());
   std::vector<std::string> notes;
   if (whole.starts_with("C") || whole.starts_with("STC")) notes.emplace_back(kColours);
   if (whole.starts_with("ST")) notes.emplace_back(kUvs);
@@ -208,6 +211,7 @@ FileText load(const std::filesystem::path& path) {
   file.bytes.resize(size);
   if (size > 0 && !stream.read(file.bytes.data(), static_cast<std::streamsize>(size)))
     file.fail("the file cannot be read to its end");
+  if (file.bytes.starts_with("version https://git-lfs")) file.fail(kPointer);
   return file;
 }
 

@@ -130,14 +130,17 @@ class TextTriangles {
  private:
   // In lower case, without the hyphens and underscores between its parts, which may be words of their own.
   std::string keyword(std::string_view word) {
-    std::string found = plain(word);
-    if (found != "end" && found != "outer") return found;
-    return found + plain(scan_.word());
+    const std::string found = plain(word);
+    return found == "end" || found == "outer" ? plain(std::string(word) + std::string(scan_.word())) : found;
   }
+  // A name may follow `solid` and `endsolid` without a blank.
   static std::string plain(std::string_view word) {
     std::string result;
     for (const char c : word) {
       if (c != '_' && c != '-') result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    for (const char* const named : {"solid", "endsolid"}) {
+      if (result.starts_with(named)) return named;
     }
     return result;
   }

@@ -1,6 +1,8 @@
 #include "mesh/io/scanner.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 #include "base/errors.h"
@@ -25,8 +27,14 @@ std::ptrdiff_t continuation(const char* p, const char* end) {
 }
 
 std::string_view without_plus(std::string_view word) {
+  while (word.size() > 1 && word.ends_with(',')) word.remove_suffix(1);
   const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+';
   return plus ? word.substr(1) : word;
+}
+
+/// Whether a number goes on at `p`, between `first` and `end`, as in 1.#QNAN.
+bool is_inside_number(const char* p, const char* first, const char* end) {
+  return *p == '#' && p != first && p[-1] == '.' && end - p > 1 && (p[1] == 'I' || p[1] == 'Q' || p[1] == 'S');
 }
 
 /// A number too small or too large for a double, which from_chars leaves unconverted: its sign times 0 or infinity.
@@ -104,11 +112,14 @@ void Scanner::next_line() {
   ++line_;
 }
 
-std::string_view Scanner::word() {
+std::string_view Scanner::word(std::size_t most) {
   if (at_line_end()) return {};
   const char* const first = next_;
-  const auto is_comment = [&] { return comments_ == Comments::after_hash && *next_ == '#'; };
-  while (next_ != end_ && !is_blank(*next_) && *next_ != '\n' && !is_comment() && !continuation(next_, end_)) ++next_;
+  const char* const last = most < static_cast<std::size_t>(end_ - first) ? first + most : end_;
+  const auto is_comment = [&] {
+    return comments_ == Comments::after_hash && *next_ == '#' && !is_inside_number(next_, first, end_);
+  };
+  while (next_ != last && !is_blank(*next_) && *next_ != '\n' && !is_comment() && !continuation(next_, end_)) ++next_;
   return {first, static_cast<std::size_t>(next_ - first)};
 }
 
@@ -121,9 +132,20 @@ double Scanner::real(std::string_view word, std::string_view what) const {
   const auto digits = without_plus(word);
   double value = 0;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const std::string_view rest(stop, digits.data() + digits.size());
+  if (rest.starts_with('#') && digits.find(".#") != std::string_view::npos)
+    return rest.starts_with("#INF") ? std::copysign(std::numeric_limits<double>::infinity(), value)
+                                    : std::numeric_limits<double>::quiet_NaN();
+  if (rest.size() > 1 && (rest[0] == 'd' || rest[0] == 'D')) {
+    std::string in_c(digits);
+    in_c[digits.size() - rest.size()] = 'e';
+    return real(in_c, what);
+  }
   const bool whole = stop == digits.data() + digits.size();
   if (whole && error == std::errc::result_out_of_range) return beyond_range(digits);
-  if (!whole || error != std::errc{}) fail(std::string(what) + " is expected, but found " + quoted(word));
+  if (!whole || error != std::errc{})
+    fail(std::string(what) + " is expected, but found " + quoted(word) +
+         (word.find(',') == std::string_view::npos ? "" : ": numbers need decimal points"));
   return value;
 }
 

@@ -20,6 +20,10 @@ inline constexpr std::string_view kColours = "the colours of its vertices are no
 /// What a reader of PLY or OFF notes of a file with UVs.
 inline constexpr std::string_view kUvs = "its UVs are not read";
 
+/// What is said of a file that another one stands for.
+inline constexpr std::string_view kPointer =
+    "this is a pointer of Git LFS, not the model: fetch that with 'git lfs pull'";
+
 /// A file in memory and the name that errors call it by.
 struct FileText {
   std::string name;
@@ -48,13 +52,14 @@ enum class Comments { none, after_hash };
 
 /// Reads a text from front to back. Words are separated by blanks; a backslash at a line's end continues the line.
 /// Lines end with LF, CR LF or CR; a byte order mark at the start is skipped.
-/// Numbers are written as in C, whatever the locale, and fill their word.
+/// Numbers are written as in C, whatever the locale, or with the exponents of Fortran (1D5) and what old libraries of
+/// Windows write for NaN and infinity (1.#QNAN, 1.#INF). They fill their word, but for commas after it.
 class Scanner {
  public:
   Scanner(const FileText& file, Comments comments, std::size_t start = 0, std::int64_t first_line = 1);
 
-  /// The next word on this line, empty at the line's end.
-  std::string_view word();
+  /// The next word on this line, or as many characters of it; empty at the line's end.
+  std::string_view word(std::size_t most = std::string_view::npos);
   /// The next word, on this line or a later one. @throws InvalidMesh naming `what` if the text ends before it.
   std::string_view word_on_any_line(std::string_view what);
   /// Moves to the start of the next line, past whatever is left of this one.
