@@ -67,8 +67,11 @@ def _import(path, up):
     if kind == ".obj":
         _call(path, "read", bpy.ops.wm.obj_import, up_axis=up, forward_axis=compatibility.forward_axis(up))
         return
-    with compatibility.old_numpy_names():
-        _call(path, "read", compatibility.operator(holomorph.files.formats.IMPORTERS[kind]))
+    try:
+        with compatibility.old_numpy_names():
+            _call(path, "read", compatibility.operator(holomorph.files.formats.IMPORTERS[kind]))
+    except ExchangeError as error:
+        raise ExchangeError(holomorph.files.scenes.fault(path) or str(error)) from error
 
 
 def write(path, forms=False, texture=False):

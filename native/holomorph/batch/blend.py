@@ -9,7 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from .._native import InvalidMesh
-from ..files import formats, whole_file
+from ..files import formats, scenes, whole_file
 from .errors import DONE, REFUSED, UsageError
 
 ARRAYS = ".npz"  # vertices, corner_vertices, face_offsets, and seams, the (#S, 2) vertices of the marked edges
@@ -39,7 +39,8 @@ class Opening:
                     raise InvalidMesh(self.problem)
                 _run(self.blender, self.path, "read", folder)
             except InvalidMesh as error:
-                return {"status": REFUSED, "message": str(error), "seconds": time.perf_counter() - start}, {}
+                told = not self.problem and scenes.fault(self.path) or str(error)
+                return {"status": REFUSED, "message": told, "seconds": time.perf_counter() - start}, {}
             files = {path.name: path.read_bytes() for path in Path(folder).iterdir()}
         return {"status": DONE, "message": "", "seconds": time.perf_counter() - start}, files
 

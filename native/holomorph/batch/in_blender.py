@@ -27,7 +27,9 @@ def open_scene(path, importers):
         try:
             importer(importers)(filepath=str(path))
         except (RuntimeError, AttributeError) as error:  # the latter where Blender was built without it
-            sys.exit(f"this Blender cannot import it: {str(error).strip().splitlines()[-1]}")
+            lines = [line.strip() for line in str(error).splitlines()]
+            told = [line for line in lines if line and not line.startswith(("Location:", "File "))]
+            sys.exit(f"this Blender cannot import it: {told[-1] if told else path}")
     elif Path(bpy.data.filepath) != Path(path):
         sys.exit("this is not a .blend file that this Blender reads")
 

@@ -63,10 +63,14 @@ def _check_integers(array, name):
 
 
 def polygons(faces):
-    """Corner vertices and face offsets of (#F, 3) or (#F, 4) integers, or of a list of lists of any sizes."""
+    """Corner vertices and face offsets of (#F, n) integers, or of a list of lists of any sizes."""
     faces = np.asarray(faces) if isinstance(faces, memoryview) else faces
     if isinstance(faces, np.ndarray) and faces.dtype != object:
-        array = integer(faces, "faces", dimensions=2, columns=(3, 4))
+        array = integer(faces, "faces", dimensions=2)
+        if array.shape[1] < 3:
+            raise InvalidMesh(
+                f"faces has the shape {array.shape}; a column for each of three corners or more is needed"
+            )
         kind = array.dtype if array.size <= np.iinfo(np.int32).max else np.int64  # too many are refused natively
         return array.ravel(), np.arange(0, array.size + 1, array.shape[1], dtype=kind)
     try:
@@ -74,10 +78,32 @@ def polygons(faces):
         sizes = np.fromiter(map(len, faces), dtype=np.int64, count=len(faces))
     except TypeError as error:
         raise InvalidMesh(
-            "faces must be an integer array (rows, 3) or (rows, 4), or a list of lists of vertices"
+            "faces must be an integer array with a row for each face, or a list of lists of vertices"
         ) from error
     corners = integer(list(chain.from_iterable(faces)), "faces")
     return corners, np.concatenate([[0], np.cumsum(sizes)])
+
+
+def strip_triangles(corners, offsets):
+    """(#T, 3) of bands of triangles, of which each begins at an offset. Every other triangle runs the other way; those
+    with a vertex twice only lead to the next band, and are left out."""
+    band = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    first = np.flatnonzero(np.arange(len(corners)) + 2 < offsets[1:][band])
+    rows = corners[first[:, None] + [0, 1, 2]]
+    is_turned = (first - offsets[band[first]]) % 2 == 1
+    rows[is_turned] = rows[is_turned][:, [1, 0, 2]]
+    return rows[(rows != np.roll(rows, 1, axis=1)).all(axis=1)]
+
+
+def near_origin(points):
+    """((#P, 3) points less a place, the place), so that single precision keeps their shape. Places are multiples of a
+    power of two above four times the size: 0 for points near the origin, and exact in single precision."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle = (low + high) / 2
+    unit = max(4 * (high - low).max(), 2.0**-23 * np.abs(middle).max(), np.finfo(float).tiny)
+    unit = 2.0 ** np.ceil(np.log2(unit))
+    place = np.round(middle / unit) * unit + 0.0  # -0 becomes 0
+    return points - place, place
 
 
 def frozen(array):

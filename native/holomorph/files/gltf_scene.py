@@ -9,27 +9,35 @@ from urllib.parse import unquote
 import numpy as np
 
 from .._native import InvalidMesh
+from ..core import arrays
 from . import whole_file
 from .gltf import BINARY, JSON, MAGIC
 
 UP = "Y"
+NAME = "glTF"
+INSTANCES = "EXT_mesh_gpu_instancing"
 NUMBERS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-WIDTHS = {"SCALAR": 1, "VEC3": 3}
+WIDTHS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
+MOST_ROWS = 50_000_000  # of an accessor that need not be in the file
 TRIANGLES, STRIP, FAN = 4, 5, 6  # ways to draw; others draw points and lines
 
 
-def placed(path):
-    """Yields (points, triangles, matrix). @throws InvalidMesh, OSError, and what a damaged file leads to"""
-    content = whole_file.read(path)
+def placed(content, path, notes):
+    """Yields (points, triangles, matrix), and adds to the notes. @throws InvalidMesh, OSError, and what a damaged file
+    leads to"""
     binary = b""
     if content[:4] == struct.pack("<I", MAGIC):
         _check_version(*struct.unpack_from("<I", content, 4))
         content, binary = _chunks(content)
-    scene = _Scene(json.loads(content), binary, Path(path).parent)
+    about, _ = json.JSONDecoder().raw_decode(content.decode("utf-8-sig").lstrip())  # some writers pad the text
+    scene = _Scene(about, binary, Path(path).parent)
     scene.check()
     for mesh, matrix in scene.meshes():
         for primitive in mesh["primitives"]:
-            yield *scene.triangles(primitive), matrix
+            if primitive.get("mode", TRIANGLES) in (TRIANGLES, STRIP, FAN) and "POSITION" in primitive["attributes"]:
+                yield *scene.triangles(primitive), matrix
+            else:
+                notes.append("its points, lines and primitives without positions are not read")
 
 
 def _check_version(version):
@@ -37,15 +45,20 @@ def _check_version(version):
         raise InvalidMesh(f"this is glTF {version}; 2.0 is needed")
 
 
+def _check_compression(extensions):
+    for name in extensions:
+        if "compression" in name:
+            raise InvalidMesh(f"it is compressed ({name}); save it without")
+
+
 def _chunks(content):
     """(JSON, binary) of a GLB file."""
-    found, place = {JSON: b"", BINARY: b""}, 12
-    while place < len(content):
+    found, place = {}, 12
+    while place + 8 <= len(content):
         size, kind = struct.unpack_from("<II", content, place)
         found.setdefault(kind, content[place + 8 : place + 8 + size])
-        found[kind] = found[kind] or content[place + 8 : place + 8 + size]
         place += 8 + size
-    return found[JSON], found[BINARY]
+    return found[JSON], found.get(BINARY, b"")
 
 
 class _Scene:
@@ -54,9 +67,7 @@ class _Scene:
 
     def check(self):
         _check_version(self._content["asset"]["version"])
-        for name in self._content.get("extensionsRequired", []):
-            if "compression" in name:
-                raise InvalidMesh(f"it is compressed ({name}); save it without")
+        _check_compression(self._content.get("extensionsRequired", []))
 
     def meshes(self):
         """(mesh, matrix) of each node of the scene, from its roots down."""
@@ -69,10 +80,19 @@ class _Scene:
             node = nodes[index]
             matrix = _matrix(node) @ above
             if "mesh" in node:  # a skin puts its mesh where its bones are, wherever the node is
-                yield self._content["meshes"][node["mesh"]], np.eye(4) if "skin" in node else matrix
+                mesh, place = self._content["meshes"][node["mesh"]], np.eye(4) if "skin" in node else matrix
+                for instance in self._instances(node):
+                    yield mesh, instance @ place
             waiting += [(child, matrix) for child in reversed(node.get("children", []))]
         if waiting:
             raise InvalidMesh("its nodes are no tree")
+
+    def _instances(self, node):
+        """Matrices of the places that an extension lists, or of the only one."""
+        about = node.get("extensions", {}).get(INSTANCES, {}).get("attributes", {})
+        rows = {name.lower(): self._rows(index) for name, index in about.items() if not name.startswith("_")}
+        for places in zip(*rows.values()) if rows else [()]:
+            yield _matrix(dict(zip(rows, places)))
 
     def _roots(self, nodes):
         if "scenes" in self._content:
@@ -81,6 +101,8 @@ class _Scene:
 
     def triangles(self, primitive):
         """(points, (#T, 3)), in which no triangle is there for points and lines."""
+        if "bufferView" not in self._content["accessors"][primitive["attributes"]["POSITION"]]:
+            _check_compression(primitive.get("extensions", {}))
         points = self._rows(primitive["attributes"]["POSITION"]).astype(float)
         indices = np.arange(len(points))
         if "indices" in primitive:
@@ -88,30 +110,40 @@ class _Scene:
         mode = primitive.get("mode", TRIANGLES)
         if mode == TRIANGLES:
             return points, indices[: len(indices) // 3 * 3].reshape(-1, 3)
-        if mode not in (STRIP, FAN) or len(indices) < 3:
-            return points, np.empty((0, 3), np.int64)
-        first = indices[:-2] if mode == STRIP else np.full(len(indices) - 2, indices[0])
-        rows = np.column_stack([first, indices[1:-1], indices[2:]])
-        if mode == STRIP:  # whose every other triangle runs the other way; those of two corners lead to the next band
-            rows[1::2] = rows[1::2, [1, 0, 2]]
-            rows = rows[(rows != np.roll(rows, 1, axis=1)).all(axis=1)]
-        return points, rows
+        if mode == STRIP:
+            return points, arrays.strip_triangles(indices, np.array([0, len(indices)]))
+        return points, np.column_stack([np.repeat(indices[:1], max(len(indices) - 2, 0)), indices[1:-1], indices[2:]])
 
     def _rows(self, index):
-        """(n, 1 or 3) of an accessor."""
+        """(n, 1, 3 or 4) of an accessor."""
         about = self._content["accessors"][index]
-        if "sparse" in about or "bufferView" not in about:
-            raise InvalidMesh("it has sparse accessors, which are not read; save it without")
-        view, kind = self._content["bufferViews"][about["bufferView"]], np.dtype(NUMBERS[about["componentType"]])
+        kind = np.dtype(NUMBERS[about["componentType"]])
+        if "bufferView" in about:
+            rows = self._stored(index, about, kind)
+        elif "sparse" in about and about["count"] <= MOST_ROWS:
+            rows = np.zeros((about["count"], WIDTHS[about["type"]]), kind)
+        else:
+            raise InvalidMesh(f"accessor {index} has no numbers")
+        if sparse := about.get("sparse"):
+            rows, count = rows.copy(), {"count": sparse["count"]}
+            places = {"type": "SCALAR"} | count | sparse["indices"]
+            changed = self._stored(index, places, np.dtype(NUMBERS[places["componentType"]]))[:, 0]
+            rows[changed] = self._stored(index, {"type": about["type"]} | count | sparse["values"], kind)
+        if about.get("normalized"):
+            return np.maximum(rows / np.iinfo(kind).max, -1)
+        return rows
+
+    def _stored(self, index, about, kind):
+        """(n, 1, 3 or 4) of a view of a buffer."""
+        view = self._content["bufferViews"][about["bufferView"]]
+        if "uri" not in self._content["buffers"][view["buffer"]] and not self._binary:
+            _check_compression(view.get("extensions", {}))
         width, start = WIDTHS[about["type"]], view.get("byteOffset", 0)
         content = self._buffer(view["buffer"])[start : start + view["byteLength"]]
         stride, count = view.get("byteStride", kind.itemsize * width), about["count"]
         if stride < kind.itemsize * width:
             raise InvalidMesh(f"rows of accessor {index} overlap")
-        rows = np.ndarray((count, width), kind, content, about.get("byteOffset", 0), (stride, kind.itemsize))
-        if about.get("normalized"):
-            return np.maximum(rows / np.iinfo(kind).max, -1)
-        return rows
+        return np.ndarray((count, width), kind, content, about.get("byteOffset", 0), (stride, kind.itemsize))
 
     def _buffer(self, index):
         if index not in self._buffers:

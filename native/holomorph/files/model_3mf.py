@@ -1,101 +1,131 @@
-"""3MF as pieces: the triangles of all that is to be built, in millimetres.
-
-Numbers are found in the text of whole lists, since files for printers have millions; the rest is read as XML.
-"""
+"""3MF as pieces: the triangles of all that is to be built, in millimetres."""
 
 import io
-import re
 import zipfile
+from functools import cache
+from urllib.parse import unquote
 from xml.etree import ElementTree
+from xml.parsers import expat
 
 import numpy as np
 
 from .._native import InvalidMesh
-from . import whole_file
+from ..core.value import quoted
 
 UP = "Z"
+NAME = "3MF"
+RELATIONS = "_rels/.rels"
 FIRST = "3D/3dmodel.model"  # where the relations of the package name no other
 MODEL = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"  # the relation
 MILLIMETRES = {"micron": 0.001, "millimeter": 1, "centimeter": 10, "inch": 25.4, "foot": 304.8, "meter": 1000}
-LIST = re.compile(rb"<((?:\w+:)?)(vertices|triangles)>(.*?)</\1\2>", re.DOTALL)
-NAMES = {b"vertices": ("x", "y", "z"), b"triangles": ("v1", "v2", "v3")}
+UNREAD = {"beamlattice": "its beam lattices are not read", "slice": "its slices are not read"}
 MOST_NESTED = 64  # components of components
 MOST_BYTES, MOST_PACKED = 2**24, 200  # of a part, and beyond these for each byte in the archive
 
 
-def placed(path):
-    """Yields (points, triangles, matrix). @throws InvalidMesh, OSError, and what a damaged file leads to"""
-    yield from _Package(zipfile.ZipFile(io.BytesIO(whole_file.read(path)))).built()
+def placed(content, _path, notes):
+    """Yields (points, triangles, matrix), and adds to the notes. @throws InvalidMesh, and what a damaged file leads
+    to"""
+    yield from _Package(zipfile.ZipFile(io.BytesIO(content)), notes).built()
 
 
 class _Package:
-    def __init__(self, archive):
-        self._archive, self._models = archive, {}
+    """Programs write the names of parts with either slash, in any case."""
+
+    def __init__(self, archive, notes):
+        self._archive, self._notes = archive, notes
+        self._names = {_plain(name): name for name in archive.namelist()}
+        self._model = cache(lambda path: _Model(self._read(path), notes))
 
     def built(self):
         first = self._first()
-        root, _ = self._model(first)
-        scale = np.diag([MILLIMETRES[root.get("unit", "millimeter")]] * 3 + [1.0])
-        for item in _named(root, "item"):
-            yield from self._object(_path(item, first), item.get("objectid"), _matrix(item) @ scale, 0)
+        model = self._model(first)
+        if model.unit not in MILLIMETRES:
+            raise InvalidMesh(f"its unit is {quoted(model.unit)}; one of {', '.join(MILLIMETRES)} is needed")
+        scale = np.diag([MILLIMETRES[model.unit]] * 3 + [1.0])
+        for item in model.items:
+            yield from self._object(item, first, scale, 0)
 
-    def _object(self, path, number, matrix, depth):
+    def _object(self, named, path, matrix, depth):
+        """The pieces of the object that an item or a component names."""
+        number, matrix = named.get("objectid"), _matrix(named) @ matrix
+        path = next((value for key, value in named.items() if key.endswith(" path")), path)  # of any extension
         if depth > MOST_NESTED:
             raise InvalidMesh(f"object {number} is a part of itself")
-        root, lists = self._model(path)
-        found = {each.get("id"): each for each in _named(root, "object")}[number]
-        for mesh in _named(found, "mesh"):
-            points, triangles = (
-                lists[int(mesh.find(f"{{*}}{name}").get("list"))] for name in ("vertices", "triangles")
-            )
-            yield points, triangles.astype(np.int64), matrix
-        for part in _named(found, "component"):
-            yield from self._object(_path(part, path), part.get("objectid"), _matrix(part) @ matrix, depth + 1)
+        found = self._model(path).objects.get(number)
+        if found is None:
+            raise InvalidMesh(f"it has no object {number} in {path}")
+        if "support" in found.kind:
+            self._notes.append("its objects for support are not read")
+            return
+        if not found.triangles and not found.parts:
+            self._notes.append(f"object {number} has no triangles")
+        yield np.reshape(found.points, (-1, 3)), np.reshape(found.triangles, (-1, 3)).astype(np.int64), matrix
+        for part in found.parts:
+            yield from self._object(part, path, matrix, depth + 1)
 
     def _first(self):
-        if "_rels/.rels" in self._archive.namelist():
-            for relation in ElementTree.fromstring(self._read("_rels/.rels")):
+        if RELATIONS in self._names:
+            for relation in ElementTree.fromstring(self._read(RELATIONS)):
                 if relation.get("Type") == MODEL:
-                    return relation.get("Target").lstrip("/")
+                    return relation.get("Target")
         return FIRST
 
-    def _model(self, path):
-        """(root, lists of numbers) of a part of the package."""
-        if path not in self._models:
-            lists = []
-
-            def taken(match):
-                lists.append(_columns(match[3], NAMES[match[2]]))
-                return b'<%s%s list="%d"/>' % (match[1], match[2], len(lists) - 1)
-
-            root = ElementTree.fromstring(LIST.sub(taken, self._read(path)))
-            self._models[path] = root, lists
-        return self._models[path]
-
     def _read(self, path):
-        about = self._archive.getinfo(path)
+        name = self._names.get(_plain(path)) or self._names.get(_plain(unquote(path)))
+        if name is None:
+            raise InvalidMesh(f"it has no part {path}")
+        about = self._archive.getinfo(name)
         if about.file_size > MOST_BYTES and about.file_size > MOST_PACKED * about.compress_size:
             raise InvalidMesh(f"{path} is packed {about.file_size // max(about.compress_size, 1)} times")
         return self._archive.read(about)
 
 
-def _columns(text, names):
-    """(n, 3) values of three attributes of each element."""
-    columns = [re.findall(rb"\s%s\s*=\s*[\"']\s*([^\"'\s]+)" % name.encode(), text) for name in names]
-    count = text.count(b"<") - text.count(b"</") - text.count(b"<!")
-    if {len(column) for column in columns} != {count} and count:
-        raise InvalidMesh(f"not every one of {count} elements has {', '.join(names)}")
-    return np.array(columns, "S").astype(float).reshape(3, -1).T
+class _Object:
+    def __init__(self, kind):
+        self.kind, self.points, self.triangles, self.parts = kind, [], [], []
 
 
-def _named(element, name):
-    return element.iterfind(f".//{{*}}{name}")
+class _Model:
+    """A part of the package. It is read as events: files for printers have millions of elements."""
+
+    def __init__(self, content, notes):
+        self.unit, self.objects, self.items, self._notes = "millimeter", {}, [], notes
+        parser = expat.ParserCreate(namespace_separator=" ")
+        parser.StartElementHandler = self._start
+        parser.Parse(content, True)
+
+    def _start(self, name, about):
+        name = name.rpartition(" ")[2]
+        if name == "vertex":
+            self._last.points += _numbers(name, about, ("x", "y", "z"), float)
+        elif name == "triangle":
+            self._last.triangles += _numbers(name, about, ("v1", "v2", "v3"), int)
+        elif name == "object":
+            self._last = self.objects[about.get("id")] = _Object(about.get("type", "model"))
+        elif name == "component":
+            self._last.parts.append(about)
+        elif name == "item":
+            self.items.append(about)
+        elif name == "model":
+            self.unit = about.get("unit", self.unit)
+        elif name in UNREAD:
+            self._notes.append(UNREAD[name])
 
 
-def _path(element, default):
-    """The part of the package that an element names, of whichever extension the attribute is."""
-    found = [value for key, value in element.items() if key.endswith("}path")]
-    return found[0].lstrip("/") if found else default
+def _numbers(element, about, names, kind):
+    for name in names:
+        if name not in about:
+            raise InvalidMesh(f"a {element} of it has no {name}")
+    try:
+        return [kind(about[name]) for name in names]
+    except ValueError as error:
+        told = ", ".join(f"{name}={quoted(about[name])}" for name in names)
+        raise InvalidMesh(f"a {element} of it has {told}: numbers with decimal points are needed") from error
+
+
+def _plain(name):
+    return name.replace("\\", "/").lstrip("/").lower()
 
 
 def _matrix(element):

@@ -10,19 +10,13 @@ from xml.parsers.expat import ExpatError
 import numpy as np
 
 from .._native import Error, InvalidMesh
-from . import gltf_scene, model_3mf
+from . import gltf_scene, model_3mf, whole_file
 
 KINDS = {".glb": gltf_scene, ".gltf": gltf_scene, ".3mf": model_3mf}
 MOST_PIECES, MOST_TRIANGLES = 100_000, 50_000_000  # files may repeat a mesh: a small one never needs much memory
 MALFORMED = (ValueError, TypeError, KeyError, IndexError, AttributeError, OverflowError, RecursionError, RuntimeError)
-MALFORMED += (
-    EOFError,
-    struct.error,
-    zipfile.BadZipFile,
-    zlib.error,
-    ExpatError,
-    SyntaxError,
-)  # the last of ElementTree
+MALFORMED += (EOFError, struct.error, zipfile.BadZipFile, zlib.error, ExpatError, SyntaxError)  # of ElementTree
+POINTER = b"version https://git-lfs"  # begins what stands for a large file in a checkout without it
 
 
 def kind(path):
@@ -31,24 +25,34 @@ def kind(path):
 
 
 def read(path, weld):
-    """(vertices, corner_vertices, face_offsets). weld : join equal vertices, and leave out what that makes of triangles
-    with fewer corners. @throws InvalidMesh"""
+    """((vertices, corner_vertices, face_offsets), sentences about what is not read). weld : join equal vertices, and
+    leave out what that makes of triangles with fewer corners. @throws InvalidMesh"""
+    notes, reader = [], kind(path)
     try:
-        points, triangles = joined(kind(path).placed(path))
+        content = whole_file.read(path)
+        if content.startswith(POINTER):
+            raise InvalidMesh("this is a pointer of Git LFS, not the model: fetch that with 'git lfs pull'")
+        points, triangles = joined(reader.placed(content, path, notes))
     except Error as error:
         raise type(error)(f"{os.fsdecode(path)}: {error}") from error
     except OSError as error:
         problem = "there is no such file" if isinstance(error, FileNotFoundError) else error.strerror
         raise InvalidMesh(f"{os.fsdecode(error.filename or path)}: {problem}") from error
     except MALFORMED as error:
-        told = f"it has no {error}" if isinstance(error, KeyError) else str(error)
-        if isinstance(error, (TypeError, AttributeError)):  # told in Python's words
-            told = "a value of it is of the wrong kind"
+        told = f"it has no {error}" if isinstance(error, KeyError) else f"it cannot be read as {reader.NAME}"
         raise InvalidMesh(f"{os.fsdecode(path)}: the file is damaged: {told}") from error
     if weld:
         points, places = np.unique(points + 0.0, axis=0, return_inverse=True)  # -0.0 is 0.0
         triangles = with_three_corners(places.ravel()[triangles])
-    return points, triangles.ravel(), np.arange(len(triangles) + 1) * 3
+    return (points, triangles.ravel(), np.arange(len(triangles) + 1) * 3), tuple(dict.fromkeys(notes))
+
+
+def fault(path):
+    """What is wrong with a file that another program could not read, None where that is not known here."""
+    try:
+        return kind(path) and read(path, False) and None
+    except InvalidMesh as error:
+        return str(error)
 
 
 def joined(pieces):

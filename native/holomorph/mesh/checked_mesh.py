@@ -42,10 +42,10 @@ def of_file(path, strict, weld, up):
         raise ValueError(f'up is {quoted(up)}; "Y" or "Z" is needed')
     formats.require_reader(path)
     if scene := scenes.kind(path):
-        polygons = scenes.read(path, weld or strict)
+        polygons, notes = scenes.read(path, weld or strict)
         with _naming(path):
             surface, origin = _of(*polygons, strict)
-        return surface, origin._replace(up=up or scene.UP)
+        return surface, origin._replace(up=up or scene.UP, notes=notes)
     return of_read(_native.FileMesh.read(os.fspath(path), weld), path, strict, up)
 
 
@@ -109,9 +109,7 @@ def native_of(made_of):
 def given_polygons(mesh):
     """(vertices, corner_vertices, face_offsets) of a trimesh.Trimesh, meshio.Mesh, pyvista.PolyData or Open3D mesh, or
     of anything with the same attributes. @throws InvalidMesh for another object"""
-    has = {
-        name for name in ("vertices", "points", "faces", "triangles", "cells", "face_offsets") if hasattr(mesh, name)
-    }
+    has = {"vertices", "points", "faces", "triangles", "cells", "face_offsets"} & set(dir(mesh))
     if {"vertices", "face_offsets"} <= has:
         return mesh.vertices, mesh.corner_vertices, mesh.face_offsets
     if {"vertices", "faces"} <= has:
@@ -121,7 +119,12 @@ def given_polygons(mesh):
     if {"points", "cells"} <= has and not isinstance(mesh.cells, np.ndarray):
         return np.asarray(mesh.points), *_of_blocks(mesh.cells)
     if {"points", "faces"} <= has:
-        return np.asarray(mesh.points), *_of_padded(arrays.integer(mesh.faces, "faces"))
+        corners, offsets = _of_padded(arrays.integer(mesh.faces, "faces"))
+        if len(strips := arrays.integer(getattr(mesh, "strips", []), "strips")):
+            rows = arrays.strip_triangles(*_of_padded(strips))
+            ends = offsets[-1] + np.arange(3, rows.size + 1, 3)
+            corners, offsets = np.concatenate([corners, rows.ravel()]), np.concatenate([offsets, ends])
+        return np.asarray(mesh.points), corners, offsets
     raise InvalidMesh(
         f"one {type(mesh).__name__} is no mesh: pass Surface(vertices, faces), arrays of (#V, 3) reals and (#F, 3) "
         "integers, or an object with vertices and faces, points and cells, or points and faces"

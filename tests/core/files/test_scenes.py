@@ -143,12 +143,12 @@ def changed(change):
         (lambda a: a["asset"].update(version="1.0"), "glTF 1.0"),
         (lambda a: a["asset"].update(version="20.0"), "glTF 20.0"),
         (lambda a: a["nodes"][0].update(children=[0]), "no tree"),
-        (lambda a: a["accessors"][0].update(sparse={}), "sparse"),
+        (lambda a: a["accessors"][0].pop("bufferView"), "accessor 0 has no numbers"),
         (lambda a: a["accessors"][0].update(count=10**9), "damaged"),
         (lambda a: a["bufferViews"][0].update(byteStride=0), "overlap"),
         (lambda a: a["accessors"][1].update(componentType=5121), "vertex"),
         (lambda a: a.pop("accessors"), "no 'accessors'"),
-        (lambda a: a.update(nodes=7), "a value of it is of the wrong kind"),
+        (lambda a: a.update(nodes=7), "damaged: it cannot be read as glTF"),
         (lambda a: a["meshes"][0]["primitives"][0].update(mode=1), "no faces"),
         (lambda a: a["scenes"][0].update(nodes=[3]), "damaged"),
     ],
@@ -256,6 +256,8 @@ def test_parts_of_the_package_hold_objects(tmp_path):
 
 
 ONE = f'<object id="1">{listed(TETRAHEDRON)}</object>'
+FROM = '<object id="2"><components><component objectid="1" p:path="%s"/></components></object>'
+POINTER = b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n"
 LOOP = '<object id="1"><components><component objectid="1"/></components></object>'
 
 
@@ -263,14 +265,19 @@ LOOP = '<object id="1"><components><component objectid="1"/></components></objec
     ("content", "told"),
     [
         (b"PK\3\4", "damaged"),
-        (package(("other", "")), "damaged: it has no"),
+        (package(("other", "")), "it has no part 3D/3dmodel.model"),
         (package((MODEL, "<model>")), "damaged"),
         (package((MODEL, model(LOOP, '<item objectid="1"/>'))), "part of itself"),
-        (package((MODEL, model("", '<item objectid="1"/>'))), "it has no '1'"),
+        (package((MODEL, model("", '<item objectid="1"/>'))), "it has no object 1 in 3D/3dmodel.model"),
         (package((MODEL, model("", ""))), "no faces"),
         (package((MODEL, " " * 2**25)), "packed"),
-        (package((MODEL, model("", "", "mile"))), "it has no 'mile'"),
-        (package((MODEL, model(ONE.replace('v1="0"', ""), '<item objectid="1"/>'))), "not every one"),
+        (package((MODEL, model("", "", "mile"))), "its unit is 'mile'; one of micron"),
+        (package((MODEL, model(ONE, '<item objectid="1" transform="1 0 0"/>'))), "cannot be read as 3MF"),
+        (package((MODEL, model(ONE.replace('v1="0"', 'v1="0.5"'), '<item objectid="1"/>'))), "v1='0.5'"),
+        (package((MODEL, model(ONE.replace('y="', 'y="1,'), '<item objectid="1"/>'))), "decimal points"),
+        (package((MODEL, model(FROM % "/3D/absent.model", '<item objectid="2"/>'))), "no part /3D/absent.model"),
+        (POINTER, "a pointer of Git LFS"),
+        (package((MODEL, model(ONE.replace('v1="0"', ""), '<item objectid="1"/>'))), "a triangle of it has no v1"),
         (package((MODEL, model(ONE.replace('v1="0"', 'v1="-1"'), '<item objectid="1"/>'))), "vertex -1"),
     ],
 )
@@ -278,6 +285,150 @@ def test_wrong_packages_are_refused(content, told, tmp_path):
     with pytest.raises(InvalidMesh) as caught:
         Surface.read(written(tmp_path / "wrong.3mf", content))
     assert told in str(caught.value) and len(str(caught.value).splitlines()) == 1
+
+
+def of_package(path, objects=ONE, items='<item objectid="1"/>', name=MODEL, relations=""):
+    written(path, package((name, model(objects, items)), relations=relations))
+    surface = Surface.read(path)
+    return len(surface.triangles), surface.repairs.notes
+
+
+def test_comments_and_blanks_of_xml_are_no_elements(tmp_path):
+    path = tmp_path / "part.3mf"
+    for text in (
+        ONE.replace("<vertices>", "<vertices><!-- was <vertex x='9' y='9' z='9'/> -->"),
+        ONE.replace("<triangles>", "<triangles ><!-- <triangle v1='0' v2='0' v3='0'/> -->"),
+        ONE.replace("<vertices>", "<vertices\n>").replace("</triangles>", "</triangles\t>"),
+        ONE.replace("/>", "><metadata/></vertex>", 1),
+    ):
+        assert of_package(path, text) == (4, ())
+
+
+@pytest.mark.parametrize("name", ["3D/3DModel.model", "3D\\3dmodel.model", "/3d/3dmodel.MODEL"])
+@pytest.mark.parametrize("target", ["/3D/3dmodel.model", "3D/3dmodel.model", "", "/3D/3dmodel%2Emodel"])
+def test_names_of_parts_in_any_case_with_either_slash(name, target, tmp_path):
+    kind = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
+    relations = f'<Relationships xmlns="x"><Relationship Target="{target}" Id="a" Type="{kind}"/></Relationships>'
+    assert of_package(tmp_path / "part.3mf", name=name, relations=relations if target else "") == (4, ())
+
+
+def test_what_is_not_read_of_a_3mf_is_named(tmp_path):
+    path, both = tmp_path / "part.3mf", '<item objectid="1"/><item objectid="2"/>'
+    for kind in ("support", "solidsupport"):
+        second = f'<object id="2" type="{kind}">{listed(TETRAHEDRON)}</object>'
+        assert of_package(path, ONE + second, both) == (4, ("its objects for support are not read",))
+    for empty in ("<mesh><vertices/><triangles/></mesh>", "", "<mesh/>"):
+        assert of_package(path, f'{ONE}<object id="2">{empty}</object>', both) == (4, ("object 2 has no triangles",))
+    lattice = "<beamlattice><beams><beam v1='0' v2='1'/></beams></beamlattice></mesh>"
+    assert of_package(path, ONE.replace("</mesh>", lattice)) == (4, ("its beam lattices are not read",))
+
+
+# ---- glTF as other programs write it ---------------------------------------------------------------------------------
+
+
+def of_gltf(path, change):
+    return Surface.read(text_file(path, *changed(change)))
+
+
+def test_points_and_lines_beside_triangles_are_named(tmp_path):
+    def add(about):
+        about["meshes"][0]["primitives"][:0] = [
+            {"mode": 0, "attributes": {"POSITION": 0}}, {"mode": 3, "attributes": {"POSITION": 0}}, {"attributes": {}}
+        ]  # fmt: skip
+
+    surface = of_gltf(tmp_path / "mixed.gltf", add)
+    assert len(surface.triangles) == 4 and len(surface.repairs.notes) == 1 and "lines" in surface.repairs.notes[0]
+
+
+@pytest.mark.parametrize("has_view", [True, False])
+def test_sparse_accessors(has_view, tmp_path):
+    about, binary = chunks(door_files.gltf([TETRAHEDRON]))
+    given = Surface.read(text_file(tmp_path / "plain.gltf", *chunks(door_files.gltf([TETRAHEDRON])))).vertices
+    places = np.arange(4) if not has_view else np.array([1, 3])
+    values = given[places] * 2
+    start = len(binary)
+    binary = bytes(binary) + values.astype("<f4").tobytes() + places.astype("<u2").tobytes()
+    about["buffers"] = [{"byteLength": len(binary)}]
+    views = about["bufferViews"]
+    views += [{"buffer": 0, "byteOffset": start, "byteLength": 12 * len(places)}]
+    views += [{"buffer": 0, "byteOffset": start + 12 * len(places), "byteLength": 2 * len(places)}]
+    sparse = {
+        "count": len(places),
+        "indices": {"bufferView": len(views) - 1, "componentType": 5123},
+        "values": {"bufferView": len(views) - 2},
+    }
+    about["accessors"][0]["sparse"] = sparse
+    if not has_view:
+        del about["accessors"][0]["bufferView"]
+    surface = Surface.read(text_file(tmp_path / "sparse.gltf", about, binary))
+    wanted = given.copy()
+    wanted[places] *= 2
+    assert np.array_equal(surface.vertices, wanted) and surface.genus == 0
+
+
+@pytest.mark.parametrize("tail", [b"\0", b"more", b"\0" * 12, b"\x05\0\0\0TAILstuff"])
+def test_bytes_after_the_chunks(tail, tmp_path):
+    content = door_files.gltf([TETRAHEDRON])
+    assert Surface.read(written(tmp_path / "trailing.glb", content + tail)).genus == 0
+
+
+@pytest.mark.parametrize("tail", [b"\0\0", b"\n\n", b" // end"])
+def test_bytes_about_the_text(tail, tmp_path):
+    path = text_file(tmp_path / "padded.gltf", *chunks(door_files.gltf([TETRAHEDRON])))
+    assert Surface.read(written(path, b"\xef\xbb\xbf\r\n" + path.read_bytes() + tail)).genus == 0
+
+
+def test_every_instance_is_there(tmp_path):
+    about, binary = chunks(door_files.gltf([TETRAHEDRON]))
+    moves, turns = np.array([[0, 0, 0], [9, 0, 0], [0, 9, 0]]), np.array([[0, 0, 0, 1], [0, 1, 0, 0], [1, 0, 0, 0]])
+    scales = np.array([[1, 1, 1], [2, 2, 2], [1, 1, -1]])
+    start, attributes = len(binary), {"_ID": 0}
+    for name, rows in (("TRANSLATION", moves), ("ROTATION", turns), ("SCALE", scales)):
+        attributes[name] = len(about["accessors"])
+        kind = f"VEC{rows.shape[1]}"
+        view = {"buffer": 0, "byteOffset": start, "byteLength": rows.size * 4}
+        about["accessors"].append(
+            {"bufferView": len(about["bufferViews"]), "componentType": 5126, "count": 3, "type": kind}
+        )
+        about["bufferViews"].append(view)
+        binary, start = bytes(binary) + rows.astype("<f4").tobytes(), start + rows.size * 4
+    about["buffers"] = [{"byteLength": len(binary)}]
+    about["nodes"][0] |= {
+        "translation": [100, 0, 0],
+        "extensions": {"EXT_mesh_gpu_instancing": {"attributes": attributes}},
+    }
+    surface = Surface.read(text_file(tmp_path / "instances.gltf", about, binary))
+    parts = surface.components
+    assert len(parts) == 3
+    own = TETRAHEDRON.vertices
+    wanted = [own, 2 * own * [-1, 1, -1] + [9, 0, 0], own * [1, -1, 1] + [0, 9, 0]]
+    for part, rows in zip(parts, wanted):
+        assert np.allclose(np.sort(part.vertices, axis=0), np.sort(rows + [100, 0, 0], axis=0))
+    assert len({np.sign(np.linalg.det(corners(part) - part.vertices.mean(axis=0)).sum()) for part in parts}) == 1
+
+
+@pytest.mark.parametrize("name", ["KHR_draco_mesh_compression", "EXT_meshopt_compression"])
+@pytest.mark.parametrize("is_declared", [True, False])
+def test_compressed_files_are_told_to_be_so(name, is_declared, tmp_path):
+    about, _ = chunks(door_files.gltf([TETRAHEDRON]))
+    primitive = about["meshes"][0]["primitives"][0]
+    if "draco" in name:
+        primitive["extensions"] = {name: {"bufferView": 0, "attributes": {"POSITION": 0}}}
+        for accessor in about["accessors"]:
+            accessor.pop("bufferView")
+    else:
+        for view in about["bufferViews"]:
+            view["extensions"] = {name: {"buffer": 1}}
+    about |= {"extensionsUsed": [name]} | ({"extensionsRequired": [name]} if is_declared else {})
+    path = written(tmp_path / "packed.gltf", json.dumps(about).encode())
+    with pytest.raises(InvalidMesh, match=rf"packed.gltf: it is compressed \({name}\)"):
+        Surface.read(path)
+
+
+@pytest.mark.parametrize("ending", ["glb", "gltf", "3mf", "obj", "off", "ply", "stl", "GLB", "OBJ"])
+def test_pointers_of_git_are_told_to_be_so(ending, tmp_path):
+    with pytest.raises(InvalidMesh, match="this is a pointer of Git LFS, not the model"):
+        Surface.read(written(tmp_path / f"model.{ending}", POINTER))
 
 
 @pytest.mark.parametrize("ending", ["glb", "gltf", "3mf"])

@@ -50,6 +50,31 @@ def test_polygons_stay_polygons(mesh):
     assert surface.corner_vertices.tolist() == [vertex for polygon in POLYGONS for vertex in polygon]
 
 
+def test_strips_are_triangles():
+    """As PyVista has them beside its polygons: every other one runs the other way, and one of two corners is none."""
+    strips = np.array([4, 0, 1, 3, 2, 4, 1, 1, 4, 2])
+    _, corners, offsets = given_polygons(SimpleNamespace(points=POINTS, faces=np.array([3, 0, 3, 5]), strips=strips))
+    assert corners.reshape(-1, 3).tolist() == [[0, 3, 5], [0, 1, 3], [3, 1, 2], [4, 1, 2]]
+    assert offsets.tolist() == [0, 3, 6, 9, 12]
+    alone = Surface(SimpleNamespace(points=POINTS, faces=np.array([], int), strips=np.array([4, 0, 1, 3, 2])))
+    assert alone.triangles.tolist() == [[0, 1, 3], [3, 1, 2]]
+
+
+@pytest.mark.parametrize("size", [5, 6, 9])
+def test_an_array_has_a_row_for_each_polygon(size):
+    turn = 2 * np.pi * np.arange(size) / size
+    points = np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
+    assert Surface(points, np.arange(size)[None]).face_offsets.tolist() == [0, size]
+
+
+class Undecided:
+    """As an empty scene of trimesh: what it has cannot be computed."""
+
+    @property
+    def triangles(self):
+        raise ValueError("need at least one array to concatenate")
+
+
 @pytest.mark.parametrize("sizes", [[3], [4, 3, 5], [3] * 100 + [7], np.random.default_rng(3).integers(3, 9, 1000)])
 def test_padded_faces_of_any_sizes(sizes):
     """Their vertices, all 3 or so, may be taken for sizes."""
@@ -63,6 +88,7 @@ def test_padded_faces_of_any_sizes(sizes):
 @pytest.mark.parametrize(
     ("mesh", "told"),
     [
+        (Undecided(), r"one Undecided is no mesh"),
         (np.zeros((3, 3)), r"one ndarray is no mesh: pass Surface\(vertices, faces\)"),
         (SimpleNamespace(points=POINTS), "an object with vertices and faces, points and cells"),
         (SimpleNamespace(points=POINTS, cells=[block("tetra", [[0, 1, 2, 3]])]), "its cells: tetra"),
