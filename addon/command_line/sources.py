@@ -16,6 +16,7 @@ from . import options as options_of
 from .options import Refused, UsageError
 
 intake = module("mesh.intake")
+near_origin = module("core.arrays").near_origin
 SHARP_ANGLE = 0.7  # radians, 40 degrees: sharper edges of an imported mesh stay sharp
 Z_UP_FROM_Y_UP = math.pi / 2  # radians about the x axis, as Blender's own importers rotate OBJ files
 
@@ -93,9 +94,11 @@ def _intake(options):
 def _object_of(options, file):
     """The polygons of an `Intake` as an object, in an otherwise empty scene unless a .blend was opened."""
     _empty_scene()
-    mesh = mesh_io.new_mesh(options.mesh.stem, file.vertices, file.corner_vertices, file.face_offsets)
+    points, place = near_origin(file.vertices)
+    mesh = mesh_io.new_mesh(options.mesh.stem, points, file.corner_vertices, file.face_offsets)
     mesh_io.shade_smooth(mesh, SHARP_ANGLE)
     obj = bpy.data.objects.new(mesh.name, mesh)
+    obj.location = intake.upright(place, file.surface.up)
     if file.surface.up == "Y":
         obj.rotation_euler.x = Z_UP_FROM_Y_UP
     bpy.context.scene.collection.objects.link(obj)
@@ -107,7 +110,7 @@ def _object_of(options, file):
 def _of_file(target, file):
     """The target of the object with the positions of the file, more precise than Blender's, and the faces that were
     left out of it."""
-    vertices = intake.upright(file.vertices, file.surface.up)
+    vertices = intake.upright(near_origin(file.vertices)[0], file.surface.up)
     return replace(target, polygons=replace(target.polygons, vertices=vertices, left_out=file.surface.refused))
 
 

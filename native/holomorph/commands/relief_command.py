@@ -117,7 +117,7 @@ def _made(options, depth):
             f"{refused[0]}; choose another number, or leave it out"
         )
     made = joined(reliefs)
-    told = _told(made, refused, parts, depth) + [turned_sentence(turned)] * (turned > 0) + _aspect(heights)
+    told = _told(options, made, refused, parts, depth) + [turned_sentence(turned)] * (turned > 0) + _aspect(heights)
     return made, told, _faults(made, parts, depth)
 
 
@@ -147,10 +147,15 @@ def _scaled(surface, factor):
     return Surface.from_polygons(*arrays, strict=False)._standing_as(surface)
 
 
-def _told(made, refused, parts, depth):
+def _told(options, made, refused, parts, depth):
     sentences = [f"{len(made.triangles):,} triangles, {depth:.4g} mm deep, {made.volume / 1000:.4g} cm3"]
     if refused:
         sentences.append(f"{len(refused)} of {len(parts)} parts stay flat: {refused[0]}")
+    if off := printing.rounding(options.output, made):
+        sentences.append(
+            f"STL is in single precision, which moves points so far from the origin by up to {rounded(off)} mm: write "
+            ".3mf, or move the mesh to the origin"
+        )
     if made.is_full:
         off = made.error * depth
         sentences.append(

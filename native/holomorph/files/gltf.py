@@ -3,6 +3,8 @@
 import json
 import struct
 
+from ..core import arrays
+
 MAGIC, VERSION = 0x46546C67, 2
 JSON, BINARY = 0x4E4F534A, 0x004E4942  # kinds of chunks
 ALIGNMENT = 4  # bytes
@@ -13,11 +15,13 @@ ROUGHNESS = 0.8
 
 
 def encoded(points, triangles, uv=None, image=None):
-    """The bytes of a GLB file, the same for the same mesh. Numbers are in single precision.
+    """The bytes of a GLB file, the same for the same mesh. Numbers are in single precision, of points far from the
+    origin relative to a node there.
 
     points : (#P, 3); triangles : (#T, 3); uv : (#P, 2), with v upwards; image : a `textures.Image` on the mesh
     """
     buffer, attributes = _Buffer(), {}
+    points, place = arrays.near_origin(points)
     attributes["POSITION"] = buffer.add_array(points.astype("<f4"), VERTICES, FLOAT, with_bounds=True)
     if uv is not None:
         downwards = uv * [1, -1] + [0, 1]  # as glTF counts v: from the top of the image
@@ -28,7 +32,7 @@ def encoded(points, triangles, uv=None, image=None):
         "asset": {"version": "2.0", "generator": "Holomorph"},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0}],
+        "nodes": [{"mesh": 0} | ({"translation": place.tolist()} if place.any() else {})],
         "meshes": [{"primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}],
         "materials": [{"pbrMetallicRoughness": surface, "doubleSided": True}],
     }

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..core import arrays
 from . import formats
 
 EPOCH = (1980, 1, 1, 0, 0, 0)  # the date of what is in a 3MF file, so that it does not depend on the clock
@@ -48,8 +49,15 @@ def of_path(path):
     return name
 
 
+def rounding(path, mesh):
+    """By how much single precision moves points of a mesh that is far from the origin, in the file of this path."""
+    if of_path(path) != "stl" or not arrays.near_origin(mesh.vertices)[1].any():
+        return 0.0
+    return float(np.abs(mesh.vertices.astype(np.float32) - mesh.vertices).max())
+
+
 def stl(mesh):
-    """Binary STL, which is in single precision."""
+    """Binary STL, which is in single precision: see `rounding`."""
     facets = np.zeros(len(mesh.triangles), FACET)
     facets["corners"] = mesh.vertices[mesh.triangles]
     a, b, c = np.moveaxis(facets["corners"].astype(np.float64), 1, 0)
@@ -61,10 +69,13 @@ def stl(mesh):
 
 
 def three_mf(mesh):
-    """3MF: a ZIP archive with the mesh as XML; coordinates have nine digits."""
-    vertices = formats.text_of('<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', mesh.vertices)
+    """3MF: a ZIP archive with the mesh as XML; coordinates have nine digits, relative to a place near them."""
+    points, place = arrays.near_origin(mesh.vertices)
+    vertices = formats.text_of('<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', points)
     triangles = formats.text_of('<triangle v1="%d" v2="%d" v3="%d"/>\n', mesh.triangles)
     begin, between, end = MODEL
+    if place.any():
+        end = end.replace("<item ", '<item transform="1 0 0 0 1 0 0 0 1 {:.17g} {:.17g} {:.17g}" '.format(*place))
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, text in (

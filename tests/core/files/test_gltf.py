@@ -246,3 +246,25 @@ def test_wrong_turns_and_lines_are_named(options, told, tmp_path, capsys):
     with pytest.raises(SystemExit) if "3" in options else nullcontext():
         assert main([str(ball(tmp_path, families.geodesic_sphere(2))), *options]) == 2
     assert told in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("far", [[5e5, 4.6e6, 100], [0, 0, -1e7], [3e8, 3e8, 3e8]])
+def test_far_from_the_origin_a_node_has_the_place(far, tmp_path):
+    """Single precision is half a metre there, and ten times that at 300,000 km."""
+    body, path = families.torus(12, 8, shape="triangles"), tmp_path / "far.glb"
+    Surface(body.vertices + far, body.faces).write(path)
+    made = Glb(path)
+    (node,) = made.json["nodes"]
+    assert np.array_equal(np.float32(node["translation"]), node["translation"])
+    assert np.abs(made.attribute("POSITION")).max() <= 2.5 * np.ptp(body.vertices, axis=0).max() + 32
+    again = Surface.read(path)
+    assert (again.genus, again.boundary_count) == (1, 0)
+    places = again.vertices[again.corner_vertices] - far
+    assert np.abs(places - body.vertices[body.corners]).max() < 4e-6
+
+
+@pytest.mark.parametrize("far", [[0, 0, 0], [7, -3, 2]])
+def test_near_the_origin_there_is_no_translation(far, tmp_path):
+    body, path = families.torus(12, 8, shape="triangles"), tmp_path / "near.glb"
+    Surface(body.vertices + far, body.faces).write(path)
+    assert Glb(path).json["nodes"] == [{"mesh": 0}]

@@ -2,6 +2,7 @@
 
 import zipfile
 from io import BytesIO
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -69,3 +70,22 @@ def test_the_same_bytes_on_every_run(ending, made):
 def test_other_endings_are_refused(name, made):
     with pytest.raises(ValueError, match=r"must end with \.stl, \.3mf or \.obj"):
         printing.content(name, made)
+
+
+FAR = np.array([5e5, 4.6e6, 100.0])
+
+
+def test_far_from_the_origin_3mf_has_the_place_beside_the_points(made, tmp_path):
+    far, path = SimpleNamespace(vertices=made.vertices + FAR, triangles=made.triangles), tmp_path / "far.3mf"
+    path.write_bytes(printing.content(path, far))
+    assert printing.rounding(path, far) == 0
+    again = Surface.read(path)
+    assert np.allclose(again.vertices.mean(axis=0), far.vertices.mean(axis=0), atol=1e-6)
+    assert again.area == pytest.approx(Surface(made.vertices, made.triangles).area, rel=SINGLE)
+
+
+@pytest.mark.parametrize(("ending", "is_rounded"), [("stl", True), ("STL", True), ("obj", False), ("3mf", False)])
+def test_what_single_precision_moves_is_known(ending, is_rounded, made):
+    far = SimpleNamespace(vertices=made.vertices + FAR)
+    assert (printing.rounding(f"part.{ending}", far) > 0.01) == is_rounded
+    assert printing.rounding(f"part.{ending}", made) == 0
