@@ -80,6 +80,15 @@ def test_folders_patterns_and_lists(folder, tmp_path):
     assert names([folder, folder / "torus_2.obj"], out) == everything, "a file that is named twice is one source"
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+@pytest.mark.parametrize("newline", ["\n", "\r\n"])
+def test_lists_as_editors_write_them(encoding, newline, folder, tmp_path):
+    torus_obj(folder / "a b.obj")
+    torus_obj(folder / "\u00fc.obj")
+    (folder / "list.txt").write_bytes(newline.join(["a b.obj", "\u00fc.obj\t", ""]).encode(encoding))
+    assert names([folder / "list.txt"], tmp_path / "out") == ["a b.obj", "\u00fc.obj"]
+
+
 def refusal(given, out):
     with pytest.raises(UsageError) as raised:
         sources.find(given, out)

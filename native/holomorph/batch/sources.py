@@ -1,5 +1,6 @@
 """The files that a batch maps, and their names in its results."""
 
+import codecs
 import errno
 import fnmatch
 import glob
@@ -126,9 +127,11 @@ def _walked(folder):
 
 def _in_list(path, out):
     try:
-        text = path.read_text(encoding="utf-8", errors="surrogateescape")  # names are bytes
+        content = path.read_bytes()
     except OSError as error:
         raise UsageError(f"{path}: the list cannot be read: {error.strerror}") from error
+    is_utf_16 = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))  # as Windows' shell writes
+    text = content.decode("utf-16" if is_utf_16 else "utf-8-sig", errors="surrogateescape")  # names are bytes
     lines = [line.strip(" \t\r") for line in text.split("\n")]  # names may have what other line ends are made of
     entries = [line for line in lines if line and not line.startswith("#")]
     if not entries:

@@ -138,7 +138,10 @@ def _ignore_signals():
 
 
 def _open_standard_files():
-    """Where their numbers are closed, the next files would have them, and get what is written to an output."""
+    """Where their numbers are closed, the next files would have them, and get what is written to an output. Letters
+    that the encoding of an output lacks are escaped."""
+    for stream in filter(None, (sys.stdout, sys.stderr)):
+        stream.reconfigure(errors="backslashreplace")
     for number in range(3):
         try:
             os.fstat(number)

@@ -81,6 +81,9 @@ def check_places(sources, output, others, overwrite):
             raise ValueError(f"{path}: the folder {place.parent} does not exist")
         if place.is_dir():
             raise ValueError(f"{path} is a folder: the name of a file is needed")
+        written = place if place.exists() and not place.is_file() else place.parent  # as `write` does
+        if not os.access(written, os.W_OK):
+            raise ValueError(f"{path}: nothing may be written to {written}")
         taken.add(place)
 
 

@@ -34,6 +34,30 @@ def assert_one_sentence(done, status, words):
     assert line.startswith("holomorph: ") and words in line
 
 
+@pytest.mark.parametrize("encoding", ["cp1252", "ascii", "cp932"])
+@pytest.mark.parametrize("name", ["\u7acb", "\u00fc", "\U0001f9ca"])
+def test_letters_that_the_console_lacks_are_escaped(name, encoding, mesh, tmp_path):
+    path = tmp_path / f"{name}.obj"
+    path.write_bytes(mesh.read_bytes())
+    environment = os.environ | {"PYTHONIOENCODING": encoding}
+    done = run(path, "--output", tmp_path / "o.glb", env=environment, stdout=subprocess.PIPE, encoding=encoding)
+    assert done.returncode == 0 and not done.stderr and (tmp_path / "o.glb").exists()
+    wanted = name.encode(encoding, "backslashreplace").decode(encoding)
+    assert f"{wanted}.obj: " in done.stdout
+    done = run(
+        "batch",
+        path,
+        "--out",
+        tmp_path / name,
+        "--workers",
+        "1",
+        env=environment,
+        stdout=subprocess.PIPE,
+        encoding=encoding,
+    )
+    assert done.returncode == 0 and "1 done" in done.stdout
+
+
 @pytest.mark.parametrize(
     "when",
     [

@@ -5,6 +5,7 @@ import stat
 import subprocess
 import sys
 from contextlib import nullcontext
+from pathlib import Path
 
 import families
 import pytest
@@ -133,6 +134,19 @@ def test_no_file_of_a_run_is_written_over(output, others, overwrite, problem, mo
     monkeypatch.chdir(tmp_path)
     with nullcontext() if problem is None else pytest.raises(ValueError, match=problem):
         whole_file.check_places(["in.obj"], output, others, overwrite)
+
+
+def test_a_place_where_nothing_may_be_written_is_told_before_any_work(monkeypatch, tmp_path):
+    """A file that is there may be replaced in a folder that may be written to, a pipe may be written to in any."""
+    monkeypatch.chdir(tmp_path)
+    Path("locked").mkdir()
+    Path("old.obj").touch()
+    os.mkfifo("locked/pipe")
+    closed = {Path("locked").resolve(), Path("old.obj").resolve()}
+    monkeypatch.setattr(os, "access", lambda path, _mode: Path(path) not in closed)
+    with pytest.raises(ValueError, match="locked/new.obj: nothing may be written to .*locked"):
+        whole_file.check_places(["in.obj"], "locked/new.obj", [], False)
+    whole_file.check_places(["in.obj"], "old.obj", ["locked/pipe"], False)
 
 
 def test_the_command_keeps_its_mesh(tmp_path):
