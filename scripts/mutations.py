@@ -281,7 +281,7 @@ MUTATIONS = (
     | of(
         ROOM + "turns/line_values.cpp",
         ("lines-signs", "a.factor * b.factor, std::move(less)", "1, std::move(less)", LINES),
-        ("lines-offsets", "add_to(own.offset, above.offset, own.factor);", "", LINES),
+        ("lines-offsets", "add_to(own.offset, next.offset, own.factor);", "", LINES),
     )
     | of(
         ROOM + "turns/lines.cpp",
