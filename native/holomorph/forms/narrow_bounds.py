@@ -14,7 +14,8 @@ MOST_ORDER = 10
 MOST_LEVELS = 20
 FALL = 0.12  # part of the gaps that the next order leaves where forms are smooth
 HALVED = 0.8  # part of the gaps that the triangles have whose sides are halved, where no order is enough
-ROUNDING = 0.1  # gaps that add up to less of the width leave it to rounding
+ROUNDING = 0.1  # gaps that add up to less of the bounds' part leave it to rounding
+CLEARLY = 2.0  # times the width: energies of a coarse level tell what rounding costs within this factor
 ENOUGH = 0.8  # of the width asked for: what a level aims at
 SMOOTH = 1e-6  # by what the exponent of a form at a vertex may differ from an integer, and count as one
 MOST_BYTES = 8e9  # of a level, where no limit is set
@@ -31,7 +32,8 @@ class Refinement(Value):
     ----------
     reached : whether they are as narrow as asked for
     reason : why the refinement ended, one sentence
-    levels : (triangles, relative width) of each triangulation that was solved on, the surface's own first; never wider
+    levels : (triangles, relative width) of each triangulation that was solved on, the surface's own first; never wider,
+        and infinite where there are no bounds
     orders : of the polynomials on their triangles; 1, linear functions, on the surface's own
     """
 
@@ -39,6 +41,11 @@ class Refinement(Value):
     reason: str
     levels: tuple[tuple[int, float], ...]
     orders: tuple[int, ...]
+
+    @property
+    def has_bounds(self) -> bool:
+        """Whether there are any in the end."""
+        return bool(np.isfinite(self.levels[-1][1]))
 
     def _facts(self):
         widths = [f"relative width {width:.2g} on {count} triangles" for count, width in self.levels[-1:]]
@@ -69,6 +76,7 @@ def narrow(native, width, most_faces, threads, memory_limit, progress=None):
             rounding = float(solved.errors.max())
             if solved.mollification or rounding >= OPEN:
                 raise SolverError("triangles are too thin for bounds that are certain")
+            of_rounding = _width_of_rounding(solved.energies)
             _take_narrower(native, solved.energies, rounding)
         except SolverError as error:  # the bounds of the levels before hold
             reason = str(error)
@@ -76,11 +84,12 @@ def narrow(native, width, most_faces, threads, memory_limit, progress=None):
         triangles = triangles_of_level(solved)
         levels.append((len(triangles.corners), _width(native)))
         orders.append(order)
-        reason = _ended(levels, float(solved.gaps.sum()), width)
+        lost = float(solved.gaps.sum())
+        reason = _ended(levels, lost, of_rounding, width)
         if reason:
             break
         # Gaps add up to the trace of what the width is the largest eigenvalue of.
-        goal = ENOUGH * width * float(solved.gaps.sum()) / levels[-1][1]
+        goal = ENOUGH * width * lost / levels[-1][1]
         order, layers, worst_triangles = _next(triangles, solved.gaps, order, goal, fits)
         triangles = halved(triangles, worst_triangles)
         count = count_with_layers(triangles, layers)
@@ -96,7 +105,23 @@ def narrow(native, width, most_faces, threads, memory_limit, progress=None):
 
 
 def _width(native):
+    """Infinite where there are no bounds."""
+    if native.mollification() or native.metric_error() >= OPEN:
+        return np.inf
     return relative_width(*native.period_bounds(), native.period_matrix().imag)
+
+
+def _part(width):
+    """1 - lower / upper of bounds whose difference is `width` times their geometric mean: at most 1, as gaps are."""
+    root = (width + np.hypot(width, 2)) / 2 if np.isfinite(width) else np.inf
+    return 1 - root**-2.0
+
+
+def _width_of_rounding(energies):
+    """What the width would be if the forms were exact: energies, and so the bounds above and below, are known to the
+    part by which rounding may have changed them."""
+    parts = [relative_width(gram, certain, gram) for gram, certain in zip(energies.gram, energies.certain, strict=True)]
+    return float(sum(parts) if len(parts) > 1 else 2 * parts[0])
 
 
 def _first_orders(found, asked):
@@ -111,11 +136,11 @@ def _take_narrower(native, energies, rounding):
         native.narrow(list(before[1]), list(before[2]), metric_error=before[3])
 
 
-def _ended(levels, lost, width):
+def _ended(levels, lost, of_rounding, width):
     """Why the refinement ends at the last level; "" where it goes on."""
     if levels[-1][1] <= width:
         return REACHED
-    if lost < ROUNDING * levels[-1][1]:
+    if of_rounding > CLEARLY * width or lost < ROUNDING * _part(levels[-1][1]):
         return "rounding keeps the bounds from getting narrower"
     return f"{MOST_LEVELS} levels were solved" if len(levels) == MOST_LEVELS else ""
 

@@ -132,7 +132,9 @@ class RectangleMap(PlaneMap):
     def modulus_bounds(self) -> tuple[float, float] | None:
         """(lower, upper): guaranteed bounds of the modulus of the polyhedral surface. None where degenerate triangles
         had to be mollified: another surface was solved on."""
-        return (self.narrow_bounds or (self._native.lower, self._native.upper)) if self._is_exact else None
+        if self.narrow_bounds is not None:
+            return self.narrow_bounds if self.refinement.has_bounds else None
+        return (self._native.lower, self._native.upper) if self._is_exact else None
 
     @cached_property
     def collapsed_triangles(self) -> Integers:

@@ -5,7 +5,14 @@ import flat_cones
 import numpy as np
 import pytest
 from equivalence import distance_or_mirrored
-from holomorph import SolverError, TopologyError, _native, conformal_structure
+from holomorph import (
+    SolverError,
+    Surface,
+    TopologyError,
+    _native,
+    conformal_structure,
+    conformally_equivalent,
+)
 from holomorph.forms.narrow_bounds import count_with_layers, triangles_of_level
 from holomorph.forms.refined_triangles import with_layers
 from shared_data import complex_matrix, reference_values, shared_folder
@@ -139,3 +146,63 @@ def test_energies_that_are_refused_leave_the_structure():
     with pytest.raises(SolverError, match="cross"):
         native.narrow(too_small, too_small, metric_error=0.0)
     assert (native.period_matrix() == periods).all() and len(native.side_classes()) == 8
+
+
+def torus_with_inner_vertices(tau, weights):
+    """Two triangles with the corners 0, 1 and tau, each divided at the point with these weights of its corners."""
+    corners = np.array([0, 1, tau])
+    inner = corners @ weights
+    faces, lengths, names = [], [], []
+    for k in range(2):
+        for i in range(3):
+            j, m = (i + 1) % 3, (i + 2) % 3  # the side opposite i, as are the names 0 to 2
+            faces.append((0, 0, 1 + k))
+            lengths.append(np.abs([corners[m] - inner, inner - corners[j], corners[j] - corners[m]]))
+            names.append((3 + 3 * k + m, 3 + 3 * k + j, i))
+    return Surface.from_edge_lengths(np.array(faces), np.array(lengths), np.array(names))
+
+
+def needle_torus(angle):
+    """Six triangles with this angle between equal sides, whose linear functions bound next to nothing."""
+    sides = 2 * np.sin(np.radians(angle) / 2), 1, 1
+    faces = [[0, 1, 2]] * 3 + [[2, 1, 0]] * 3
+    names = [[1, 2, 0], [4, 5, 3], [7, 8, 6], [6, 2, 4], [0, 5, 7], [3, 8, 1]]
+    return Surface.from_edge_lengths(np.array(faces), np.array([sides] * 3 + [sides[::-1]] * 3), np.array(names))
+
+
+@pytest.mark.parametrize("angle", [0.1, 0.12, 0.15, 0.2])
+def test_wide_bounds_are_not_taken_for_rounding(angle):
+    structure = conformal_structure(needle_torus(angle), bounds=1e-8)
+    assert structure.refinement.levels[1][1] > 10  # what is lost is at most 2
+    assert structure.refinement.reached and structure.certificate.relative_width <= 1e-8
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_needles_of_any_width_have_true_reasons(seed):
+    """The lattice of a flat torus is exact, and rounding alone keeps its bounds apart."""
+    random = np.random.default_rng(seed)
+    tau = complex(random.uniform(-0.5, 0.5), random.uniform(0.6, 2))
+    thin, bounds = 10 ** random.uniform(-6, -1), 10.0 ** -(3 + seed % 8)
+    weights = [thin, 0.4 * (1 - thin), 0.6 * (1 - thin)] if seed % 2 else [1 - 2 * thin, thin, thin]
+    structure = conformal_structure(torus_with_inner_vertices(tau, weights), bounds=bounds)
+    width = structure.certificate.relative_width
+    found = conformally_equivalent(structure, [[tau]])
+    assert found.verdict == "indistinguishable" and found.residual <= width
+    assert structure.refinement.reached == (width <= bounds)
+    if width > bounds:
+        assert "rounding" in structure.refinement.reason and structure.certificate.rounding > bounds
+
+
+def test_rounding_that_is_above_the_wish_is_told_at_once():
+    refinement = conformal_structure(surface_of(GRADED["octagon"]), bounds=1e-13).refinement
+    assert not refinement.reached and "rounding" in refinement.reason
+    assert len(refinement.levels) == 2
+
+
+@pytest.mark.parametrize("height", [1e-8, 1e-9, 0.0])
+def test_what_has_no_bounds_has_none_as_narrow_as_asked_for(height):
+    """A flat cap over the side from 0 to 1."""
+    surface = torus_with_inner_vertices(0.3 + 1j, [0.5 - height, 0.5 - height, 2 * height])
+    structure = conformal_structure(surface, bounds=1e-3)
+    assert not structure.certificate.holds and not structure.refinement.reached
+    assert not structure.refinement.has_bounds and "too thin" in structure.refinement.reason

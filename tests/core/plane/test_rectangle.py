@@ -242,3 +242,14 @@ def test_a_challenge_of_a_hundred_digits():
     low, high = (2 / np.pi * np.arcsin(groetzsch_inverse(np.pi / 2 * m)) for m in found.modulus_bounds)
     assert high < 3.837587979251226e-7 < low
     assert low - high < 1e-5 * low
+
+
+@pytest.mark.parametrize(("height", "has_bounds"), [(1e-6, True), (1e-7, True), (1e-9, False)])
+def test_a_square_with_a_flat_cap_has_bounds_that_are_told_or_none(height, has_bounds):
+    vertices = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, height, 0)]
+    surface = Surface(vertices, [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)])
+    found = rectangle_map(surface, [0, 1, 2, 3], bounds=EIGHT)
+    assert found.refinement.reached == has_bounds == (found.modulus_bounds is not None)
+    if has_bounds:
+        low, high = found.modulus_bounds
+        assert low <= 1 <= high <= low + EIGHT
