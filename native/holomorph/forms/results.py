@@ -157,7 +157,7 @@ class Structure(Value):
 
         turns : 2, 4 or 6 where the texture looks the same after a half, a quarter or a sixth turn: then the two sides
             of a cut may turn, too. There are no poles; cones, where three or five squares meet, make the density more
-            even. The choices of poles, lattice, turn, boundary and max_added do not go with it. "auto" for what
+            even. The choices of poles, lattice, turn and boundary do not go with it. "auto" for what
             `image_turns` finds in the texture, 1 without one
         texture : pixels, as in `image_turns`, for "auto". Its centre of turns belongs at the corners of tiles
         lines : "free" for rows that run along long hard edges and smooth boundaries, "whole" for rows that end there as
@@ -176,7 +176,7 @@ class Structure(Value):
         check_cones(cones, turns, lines)
         if turns != 1:
             chosen = {"poles": (poles, "auto", 0), "turn": (turn, 0.0), "boundary": (boundary, "automatic")}
-            chosen |= {"lattice": (lattice, "square", LATTICE.get(turns)), "max_added": (max_added,)}
+            chosen |= {"lattice": (lattice, "square", LATTICE.get(turns))}
             check_fits(chosen | {"allowed": (allowed,), "moves": (moves or None,)})
         surface = self._connected if surface is None else surface
         asked = {"lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn, "boundary": boundary}

@@ -62,8 +62,10 @@ class Tiling(Value):
     residues : (k,) complex points of the lattice: by how much the UVs change around each pole, counter-clockwise
     zeros : ((k,) vertices, (k,) orders): where the texture branches, around 2 pi (order + 1)
     evenness : from 0, conformal, to 1: how far squares of one size were preferred to angles
-    added_distortion : angle distortion that the rounding to integers alone would give; 1 where it costs none
-    beltrami_rms : root mean square of the Beltrami coefficient of the rounding
+    added_distortion : angle distortion that the rounding to integers alone would give; 1 where it costs none. Of a
+        tiling that turns, that of the map before it was evened; flipped triangles count with 10
+    beltrami_rms : root mean square of the Beltrami coefficient of the rounding; flipped triangles of a tiling that
+        turns count with 1
     optimal_size_range : the `size_range` that these poles allow without integers
     rounding : `Rounding`
     tiles : the number of tiles that was aimed at: area times median density

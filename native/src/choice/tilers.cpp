@@ -38,20 +38,23 @@ bool has_angle_on_one_boundary(const mesh::Surface& surface, Execution& executio
 
 std::string counted_poles(std::size_t count) { return std::to_string(count) + (count == 1 ? " pole" : " poles"); }
 
-// The sentence of the refusal, with what can be had instead.
-std::string too_sheared(const SeamlessMap& made, double most, int genus) {
+// Refuses a map with more added distortion than is wanted, and says what can be had instead.
+void check_added(const SeamlessMap& made, std::optional<double> most, int genus) {
+  if (!most || made.added_distortion <= *most) return;
+  const bool has_poles = made.turns == 1;
   std::ostringstream text;
-  text << "with " << counted_poles(made.poles.size()) << " and ";
+  text << "with ";
+  if (has_poles) text << counted_poles(made.poles.size()) << " and ";
   text.precision(4);
   text << made.tiles;
   text.precision(5);
-  text << " tiles the added distortion is " << made.added_distortion << ", more than max_added, " << most << ": ";
-  if (std::ssize(made.poles) >= genus) {
+  text << " tiles the added distortion is " << made.added_distortion << ", more than max_added, " << *most << ": ";
+  if (!has_poles || std::ssize(made.poles) >= genus) {
     text << "take more tiles";
   } else {
     text << "take " << counted_poles(static_cast<std::size_t>(genus)) << " or more, or more tiles";
   }
-  return text.str();
+  throw TopologyError(text.str());
 }
 
 tiling::PoleOptions pole_options(const Part& part, const PoleChoice& poles, BoundaryLines boundary, bool is_evened,
@@ -72,7 +75,6 @@ void check_turned(const TileOptions& options) {
   if (!options.moves.empty()) refuse("moves of poles");
   if (options.turn.value_or(0) != 0) refuse("turn");
   if (options.boundary != BoundaryLines::kAutomatic) refuse("boundary");
-  if (options.max_added) refuse("max_added");
 }
 
 }  // namespace
@@ -101,8 +103,7 @@ SeamlessPointer Tiler::tile(const TileOptions& options, Execution& execution) co
     asked.direction = options.heading.vector;
   }
   SeamlessPointer made = value(tiling::tile(placement_, asked, execution), is_upright, execution);
-  if (options.max_added && made->added_distortion > *options.max_added)
-    throw TopologyError(too_sheared(*made, *options.max_added, part_->type.genus));
+  check_added(*made, options.max_added, part_->type.genus);
   return made;
 }
 
@@ -151,6 +152,8 @@ SeamlessPointer turned_tiling(turns::TurnedTiler& tiler, const Part& part, int t
   auto result = std::make_shared<SeamlessMap>();
   result->uv = std::move(tiling.map.uv);
   result->quality = std::move(tiling.quality);
+  result->added_distortion = tiling.added_distortion;
+  result->beltrami_rms = tiling.beltrami_rms;
   result->triangulation = part.surface;
   result->tiles = tiles;
   result->evenness = evenness;
@@ -224,6 +227,7 @@ SeamlessPointer Tilers::turned(const TileOptions& options, Execution& execution)
     });
   }
   turned_maps_.keep(made_key, made);
+  check_added(*made, options.max_added, part_->type.genus);
   return made;
 }
 

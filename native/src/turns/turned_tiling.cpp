@@ -42,6 +42,20 @@ void place_hexagons(uv::UvArray& uv) {
   }
 }
 
+void set_added(const uv::Quality& conformal, TurnedTiling& result) {
+  double weight = 0, angles = 0, squares = 0;
+  for (std::size_t t = 0; t < conformal.angle.size(); ++t) {
+    const bool is_lost = conformal.flipped[t] || !std::isfinite(conformal.angle[t]);
+    const double angle = is_lost ? uv::kMostAngle : std::min(conformal.angle[t], uv::kMostAngle);
+    const double beltrami = is_lost ? 1 : (conformal.angle[t] - 1) / (conformal.angle[t] + 1);
+    weight += conformal.weights[t];
+    angles += conformal.weights[t] * angle;
+    squares += conformal.weights[t] * beltrami * beltrami;
+  }
+  result.added_distortion = angles / weight;
+  result.beltrami_rms = std::sqrt(squares / weight);
+}
+
 }  // namespace
 
 TurnedTiler::TurnedTiler(std::shared_ptr<const mesh::Surface> surface, const TilerOptions& options,
@@ -65,7 +79,7 @@ TurnedTiler::TurnedTiler(std::shared_ptr<const mesh::Surface> surface, const Til
 }
 
 TurnedTiling TurnedTiler::tile(double tiles, double evenness, Execution& execution) {
-  TurnedTiling result{held(maps_).turned_map(tiles / (half_ ? 2 : 1), evenness, execution), options_.rows, {}};
+  TurnedTiling result{held(maps_).turned_map(tiles / (half_ ? 2 : 1), evenness, execution), options_.rows, {}, 1, 0};
   if (half_) result.map = half_->unfolded(result.map, options_.turns);
   if (options_.turns == 6) {
     place_hexagons(result.map.uv);
@@ -75,7 +89,13 @@ TurnedTiling TurnedTiler::tile(double tiles, double evenness, Execution& executi
   result.quality = uv::quality(*surface_, result.map.uv, workers);
   if (options_.along && !options_.along->is_of_u)
     result.quality.direction = uv::direction(*surface_, result.map.uv, options_.up, options_.turns, workers);
-  if (evenness > 0) uv::set_evened_from(result.quality, uv::quality(*surface_, result.map.before, workers), evenness);
+  if (evenness > 0) {
+    const uv::Quality before = uv::quality(*surface_, result.map.before, workers);
+    uv::set_evened_from(result.quality, before, evenness);
+    set_added(before, result);
+  } else {
+    set_added(result.quality, result);
+  }
   if (result.quality.lost_part > kMostLost) {
     std::ostringstream message;
     message.precision(4);

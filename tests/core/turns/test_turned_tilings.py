@@ -256,3 +256,21 @@ def test_cones_that_cost_much_lie_where_they_are_seen_least():
         tiler = _native.TurnedTiler(surface._native, turns=4, price=1e-3, chosen=[], **options)
         cones = tiler.tile(300, evenness=0.0, threads=1, progress=None).cones()
         assert up * surface.vertices[cones, 2].mean() < -0.3
+
+
+@pytest.mark.parametrize("tiles", [12.0, 300.0])
+@pytest.mark.parametrize("turns", [2, 4, 6])
+def test_added_distortion_counts_angles_and_flips(tiles, turns):
+    """Of the map before it is evened, from its singular values."""
+    block = surface_of(block_of_three_holes())
+    made = tiling(block, turns, tiles, evenness=0.0)
+    is_lost = made.quality.flipped | made.quality.collapsed
+    angle = np.where(is_lost, 10, np.minimum(made.quality.angle, 10))
+    beltrami = np.where(is_lost, 1, 1 - 2 / (np.where(is_lost, 1, made.quality.angle) + 1))
+    weights = made.quality.weights / made.quality.weights.sum()
+    assert made.added_distortion == pytest.approx(weights @ angle) and made.added_distortion > 1.001
+    assert made.beltrami_rms == pytest.approx(np.sqrt(weights @ beltrami**2))
+    evened = tiling(block, turns, tiles)
+    assert evened.added_distortion == pytest.approx(made.added_distortion, rel=0.5)
+    with pytest.raises(TopologyError, match="more than max_added, 1: take more tiles"):
+        tiling(block, turns, tiles, max_added=1.0)
