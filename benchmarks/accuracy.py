@@ -23,6 +23,7 @@ import families  # noqa: E402
 import flat_cones  # noqa: E402
 import holomorph  # noqa: E402
 import lawson  # noqa: E402
+from curve_periods import curve_period_matrix  # noqa: E402
 
 FINEST = 1e-12  # relative width that no refinement reaches
 LAWSON = (14, 24)  # intervals on an arc
@@ -101,7 +102,7 @@ def curves():
     for name, (sides, curve) in POLYGONS.items():
         flat = flat_cones.jittered(flat_cones.regular_polygon(sides), 1)
         mesh = holomorph.Surface.from_edge_lengths(flat.faces, flat.edge_lengths, flat.face_edges)
-        exact = holomorph.curve_period_matrix(curve)
+        exact = curve_period_matrix(curve)
         found[name] = [measured(mesh, exact, bounds=FINEST, most_faces=faces) for faces in GRADES]
     return found
 

@@ -25,6 +25,7 @@ import flat_cones  # noqa: E402
 import holomorph  # noqa: E402
 import known_matrices  # noqa: E402
 import regular_maps  # noqa: E402
+from curve_periods import curve_period_matrix  # noqa: E402
 from holomorph import _native  # noqa: E402
 from holomorph.forms.certificate import relative_width  # noqa: E402
 from holomorph.forms.narrow_bounds import surface_of_triangles, triangles_of_level, vertex_exponents  # noqa: E402
@@ -45,11 +46,11 @@ def closed_cases():
     """(name, surface, its exact period matrix or None)."""
     for N in (*dessins.ELLIPTIC, *dessins.HYPERELLIPTIC, 34, 43, 64):
         known = N in dessins.ELLIPTIC or N in dessins.HYPERELLIPTIC
-        yield f"X_0({N})", dessins.modular_curve(N), holomorph.curve_period_matrix(dessins.curve(N)) if known else None
+        yield f"X_0({N})", dessins.modular_curve(N), curve_period_matrix(dessins.curve(N)) if known else None
     for n in (8, 10, 12, 14, 18, 22):
-        yield f"regular {n}-gon", flat_cones.regular_polygon(n), holomorph.curve_period_matrix(polygon_curve(n))
+        yield f"regular {n}-gon", flat_cones.regular_polygon(n), curve_period_matrix(polygon_curve(n))
     for n in (5, 7, 9):
-        curve = holomorph.curve_period_matrix([1, *[0] * (n - 1), -1])
+        curve = curve_period_matrix([1, *[0] * (n - 1), -1])
         yield f"double {n}-gon", flat_cones.double_polygon(n), curve
     for name, mesh in (("Klein", regular_maps.klein_quartic()), ("Macbeath", regular_maps.macbeath_curve())):
         yield f"{name}, Hurwitz", mesh, None

@@ -24,8 +24,8 @@ PAPER = CORE + "multiresolution/test_paper_solver.py"
 MEMORY = CORE + "structure/test_memory_limit.py::test_the_estimate_and_the_peak"
 EQUIVALENCE = CORE + "moduli/test_equivalence_rounding.py"
 SURFACES = CORE + "moduli/test_conformal_equivalence.py"
-CURVES = CORE + "moduli/test_curve_periods.py"
-THETA = CORE + "moduli/test_hyperelliptic.py"
+KNOWN = CORE + "moduli/test_known_periods.py"
+THETA = CORE + "moduli/test_theta_constants.py"
 SIMILAR = CORE + "moduli/test_similarities.py"
 REFINED = CORE + "conformal/test_refined_triangles.py"
 NARROW = CORE + "conformal/test_narrow_bounds.py"
@@ -138,13 +138,6 @@ MUTATIONS = (
         ("slack-none", "SLACK = 2.0**-50", "SLACK = 0.0", BOUNDS),
         ("slack-tenth", "SLACK = 2.0**-50", "SLACK = 0.1 * 2.0**-50", BOUNDS),
     )
-    | of(
-        PACKAGE + "moduli/balls.py",
-        ("balls-rounding", "ROUNDING = 2.0**-50", "ROUNDING = 2.0**-60", BALLS),
-        ("balls-tenth", "ROUNDING = 2.0**-50", "ROUNDING = 0.1 * 2.0**-50", BALLS),
-        ("balls-quotient", "self.error + np.abs(quotient) * other.error", "self.error", BALLS),
-        ("balls-product", "(np.abs(other.value) + other.error)", "np.abs(other.value)", BALLS),
-    )
     # Solvers, memory, invariants.
     | of(
         ROOM + "multiresolution/paper_forms.cpp",
@@ -178,7 +171,6 @@ MUTATIONS = (
         ("exact", "EXACT = 1e-8", "EXACT = 1e-7", SURFACES),
         ("agreement-loose", "AGREEMENT = 0.25", "AGREEMENT = 0.5", SURFACES),
         ("agreement-strict", "AGREEMENT = 0.25", "AGREEMENT = 0.1", SURFACES),
-        ("agreement-of-different", "found.residual <= found.tolerance / 2", "True", CURVES),
     )
     | of(
         ROOM + "moduli/similarities.h",
@@ -186,31 +178,25 @@ MUTATIONS = (
         ("similar-strict", "kSimilar = 1e-8", "kSimilar = 1e-9", SIMILAR),
     )
     | of(
-        PACKAGE + "moduli/theta_constants.py",
+        PACKAGE + "moduli/igusa.py",
         ("theta-terms", "SMALLEST_TERM = 40.0", "SMALLEST_TERM = 10.0", THETA),
         ("theta-rounding", "ROUNDING = 1e-12", "ROUNDING = 1e-17", THETA),
         ("theta-bounds", "np.pi * change * energy", "0.5 * np.pi * change * energy", THETA),
-        ("theta-denied", "(sizes > errors).all()", "(sizes > 0.0).all()", THETA),
+        ("balls-rounding", "UNIT = 2.0**-50", "UNIT = 2.0**-60", BALLS),
+        ("balls-tenth", "UNIT = 2.0**-50", "UNIT = 0.1 * 2.0**-50", BALLS),
+        ("balls-quotient", "self.error + np.abs(quotient) * other.error", "self.error", BALLS),
+        ("balls-product", "(np.abs(other.value) + other.error)", "np.abs(other.value)", BALLS),
     )
-    # Periods of curves.
-    | of(
-        PACKAGE + "moduli/curve_periods.py",
-        ("curves-error", "PeriodMatrix.of(omega, error)", "PeriodMatrix.of(omega, 1e-3 * error)", CURVES),
-        ("curves-nodes", "/ (2 * r))) if r > 0", "/ (4 * r))) if r > 0", CURVES),
-        ("curves-truncation", "errors = TRUNCATION * bound", "errors = 1e-3 * TRUNCATION * bound", CURVES),
-        ("curves-growth", "np.abs(roots) * growth", "np.abs(roots)", CURVES),
-        ("curves-coefficients", "radii += 4 *", "radii += 0.4 *", CURVES),
-        ("curves-roots", "np.pi * (values", "0.1 * np.pi * (values", CURVES),
-    )
+    # Period matrices that are given.
     | of(
         PACKAGE + "forms/period_matrix.py",
-        ("periods-distance", "-np.log1p(-norm)", "norm", CURVES),
-        ("periods-error-lost", "result.error = float(error)", "result.error = 0.0", CURVES),
+        ("periods-distance", "-np.log1p(-norm)", "norm", KNOWN),
+        ("periods-error-lost", "result.error = float(error)", "result.error = 0.0", KNOWN),
     )
     | of(
         PACKAGE + "moduli/known_periods.py",
-        ("periods-asymmetry", "change = np.abs(np.asarray(period_matrix) - omega) + ", "change = ", CURVES),
-        ("periods-error-ignored", 'getattr(period_matrix, "error", 0.0) + ', "", CURVES),
+        ("periods-asymmetry", "change = np.abs(np.asarray(period_matrix) - omega) + ", "change = ", KNOWN),
+        ("periods-error-ignored", 'getattr(period_matrix, "error", 0.0) + ', "", SURFACES),
     )
     # What maps look like.
     | of(

@@ -28,8 +28,7 @@ free_boundary_map, FreeBoundaryMap, conformal_image; islands, disk_islands, cut_
 Tilings: Tiler, Tiling, Rounding, place_poles, PlacedPoles; TiledSurface, Places, Lines, Cells, Relief; height_image,
 image_lattice, ImageLattice, image_turns, ImageTurns.
 Surfaces compared: conformally_equivalent, Equivalence, conformal_map, ConformalMap, automorphisms, Automorphisms,
-siegel_reduction, SiegelReduction, hyperelliptic, Hyperelliptic, igusa_invariants, IgusaInvariants,
-curve_period_matrix.
+siegel_reduction, SiegelReduction, igusa_invariants, IgusaInvariants.
 Errors: Error, and its kinds InvalidMesh, TopologyError, SolverError, OutOfMemory, Cancelled.
 """
 
@@ -52,7 +51,6 @@ from .quality.coarse_places import CoarsePlace, coarse_places
 from .cutting.cones import cut_to_cones
 from .maps.conformal_image import conformal_image
 from .moduli.conformal_map import ConformalMap, conformal_map
-from .moduli.curve_periods import curve_period_matrix
 from .plane.cut import cut_along
 from .plane.disk import disk_map, free_boundary_map, rectangle_map, triangle_map
 from .cutting.disk_islands import disk_islands
@@ -86,7 +84,6 @@ from .forms.solver_report import MemoryPlan, Residuals, SolverReport
 from .forms.structure import conformal_structure
 from .mesh.surface import Surface
 from .moduli.symmetries import Automorphisms, automorphisms
-from .moduli.theta_constants import Hyperelliptic, hyperelliptic
 from .tiles.tiled_surface import TiledSurface
 from .tiling.tiling import Tiler, place_poles
 from .tiling.tilings import PlacedPoles, Rounding, Tiling
@@ -111,7 +108,6 @@ if TYPE_CHECKING:  # at run time, help() would print all that it names in full, 
         "Frame",
         "FreeBoundaryMap",
         "FundamentalDomain",
-        "Hyperelliptic",
         "IgusaInvariants",
         "ImageLattice",
         "ImageTurns",
@@ -161,7 +157,6 @@ if TYPE_CHECKING:  # at run time, help() would print all that it names in full, 
         "conformal_map",
         "conformal_structure",
         "conformally_equivalent",
-        "curve_period_matrix",
         "cut_along",
         "cut_to_cones",
         "disk_islands",
@@ -172,7 +167,6 @@ if TYPE_CHECKING:  # at run time, help() would print all that it names in full, 
         "frame",
         "free_boundary_map",
         "height_image",
-        "hyperelliptic",
         "igusa_invariants",
         "image_lattice",
         "image_turns",

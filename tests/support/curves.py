@@ -1,11 +1,11 @@
-"""Curves y^2 = prod (x - a) by their branch points: families that are hard for an order of the points, Moebius images,
-and Thomae's formula, which gives theta constants without periods."""
+"""Curves y^2 = prod (x - a) by their branch points: families that are hard for an order of the points, and
+Thomae's formula, which gives theta constants without periods."""
 
 from itertools import combinations
 
 import numpy as np
+from holomorph.moduli.igusa import even_theta_constants
 from holomorph.moduli.siegel import siegel_reduction
-from holomorph.moduli.theta_constants import even_theta_constants
 
 
 def circle(count, radius=1.0, turn=0.0):
@@ -34,41 +34,6 @@ NATURAL = {
     "far from 0": 100 + np.array([0, 1, 2, 3, 4, 1j]),
     "a far root": np.array([0, 1, 1j, -1, -1j, 1e6]),
 }
-
-
-def random_points(kind, count, random):
-    """Branch points on a line, on a vertical one to 1e-5, on a circle, in clusters, in conjugate pairs, or anywhere."""
-    reals, others = random.normal(size=(2, count))
-    if kind == "line":
-        return reals * np.exp(2j * np.pi * random.random()) + others[0]
-    if kind == "nearly vertical":
-        return 1e-5 * others + 1j * reals
-    if kind == "circle":
-        return circle(1, random.uniform(0.1, 10)) * np.exp(2j * np.pi * random.random(count)) + others[0]
-    if kind == "clusters":
-        middles = random.normal(size=3) + 1j * random.normal(size=3)
-        return middles[np.arange(count) % 3] + 10 ** random.uniform(-2.5, -1) * (reals + 1j * others)
-    if kind == "conjugate pairs":
-        upper = reals[: count // 2] + 1j * np.abs(others[: count // 2])
-        return np.concatenate([upper, upper.conj(), reals[2 * (count // 2) :]])
-    return reals + 1j * others
-
-
-KINDS = ("line", "nearly vertical", "circle", "clusters", "conjugate pairs", "anywhere")
-
-
-def moebius_image(points, random):
-    """(2g + 2,) points of an equivalent curve, as far from infinity as the best of some random maps leaves them. An odd
-    number of points has infinity for its last one."""
-    best, points = None, points - np.median(points.real) - 1j * np.median(points.imag)
-    points = points / np.median(np.abs(points))
-    for _ in range(20):
-        a, b, c, d = random.normal(size=4) + 1j * random.normal(size=4)
-        images = (a * points + b) / (c * points + d)
-        images = np.append(images, a / c) if len(points) % 2 else images
-        if best is None or np.abs(images).max() < np.abs(best).max():
-            best = images
-    return best
 
 
 def theta_sizes(omega):

@@ -79,8 +79,8 @@ def conformally_equivalent(
 
     Parameters
     ----------
-    a, b : Surface, or a structure that was computed of it, or a (g, g) period matrix, such as the `curve_period_matrix`
-        of a known curve with its error. Other matrices are exact to rounding, or as far as they are symmetric
+    a, b : Surface, or a structure that was computed of it, or a (g, g) period matrix, such as that of a known curve. It
+        is exact to rounding, or as far as it is symmetric, or to its `error`, see `PeriodMatrix`
     tolerance : `Equivalence.residual` that counts as none. Error bars are those of the polyhedral surfaces, and 0 tells
         apart two meshes of one smooth surface where their discretisation does: 0.01 takes them for one within 1 %
     progress : progress(fraction, stage), as in `conformal_structure`

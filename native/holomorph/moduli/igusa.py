@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 
@@ -17,16 +17,17 @@ from ..forms.narrow_bounds import Refinement
 from ..forms.results import Structure
 from ..forms.structure import conformal_structure
 from ..mesh.checks import check_type, real_number
-from .balls import Ball, product, total
 from .known_periods import period_lattice
 from .siegel import siegel_reduction
-from .theta_constants import even_characteristics, even_theta_constants
 
 PARTS = 2.0 ** -np.arange(1, 7)
 ORDER = 8  # of the Taylor series, and values along each circle
 INNER, OUTER = 1 / 16, 1 / 2  # radii of polydisks, in a ball of radius 1: [[a, b], [b, c]] has twice the norm of |a|
 SPARE = 0.8  # of the width of the bounds that seems to be enough: it is not the same in all directions
 MOST_FINER = 10.0  # times narrower at a step to them
+SMALLEST_TERM = 40.0  # terms below exp(-this) are left out of a theta series
+ROUNDING = 1e-12  # relative: more than that of a term, its exponent below SMALLEST_TERM, and of a reduced period matrix
+UNIT = 2.0**-50  # relative, of one operation on complex numbers and of the error's own
 MOST_ROUNDS = 4  # of refinement, each narrower
 SMALL = 1.0  # invariants below it are to be known to `width` itself, not to a part of them
 
@@ -179,10 +180,10 @@ def invariants(omega, change=0.0):
     h4 = total(theta**2 for theta in fourth)
     h12, h16, quotient = Ball(0), Ball(0), Ball(0)
     for quadruple in goepel_quadruples():
-        six = product(fourth[i] for i in range(10) if i not in quadruple)
+        six = multiplied(fourth[i] for i in range(10) if i not in quadruple)
         h12 = h12 + six
         h16 = h16 + six * total(fourth[i] ** 2 for i in quadruple)
-        quotient = quotient + product(inverse[i] for i in quadruple)
+        quotient = quotient + multiplied(inverse[i] for i in quadruple)
     # I2 = h12 / h10, I4 = h4, I6 = h16 / h10, I10 = h10, each times a constant to the power of its weight; h10 is the
     # product of all theta^2, and the quotient h12 / h10^2, in which each error stands once.
     return h12**2 * quotient**3, h12 * h4 * quotient**2, h16 * quotient**2
@@ -192,3 +193,71 @@ def goepel_quadruples():
     """The 15 sets of four places among the even characteristics that sum to 0 modulo 2."""
     rows = np.array(even_characteristics(2)).reshape(10, 4)
     return [chosen for chosen in combinations(range(10), 4) if not (rows[list(chosen)].sum(axis=0) % 2).any()]
+
+
+def even_theta_constants(omega, change=0.0):
+    """(value, error) of theta[a, b](0 | Omega), the sum of exp(pi i (n + a/2) Omega (n + a/2) + pi i (n + a/2) b), for
+    the `even_characteristics` in their order, of one (g, g) matrix or (k, g, g) several. The exact Omega differs by
+    some E with |p E p| <= change p Im Omega p, exp(r) - 1 where it is within r as `Equivalence.residual`. Errors are
+    infinite where `change` is 1 or more.
+    """
+    if change >= 1:
+        yield from ((1.0, np.inf) for _ in even_characteristics(omega.shape[-1]))
+        return
+    least = np.linalg.eigvalsh(omega.imag).min() * (1 - change)
+    most = int(np.ceil(np.sqrt(SMALLEST_TERM / (np.pi * least))))
+    integers = np.stack(np.meshgrid(*[np.arange(-most, most + 1)] * omega.shape[-1], indexing="ij"), -1)
+    for a, b in even_characteristics(omega.shape[-1]):
+        n = integers.reshape(-1, omega.shape[-1]) + np.array(a) / 2
+        exponents = np.einsum("ki,...ij,kj->...k", n, omega, n)
+        terms, energy = np.exp(1j * np.pi * exponents), exponents.imag
+        error = np.sum(np.pi * change * energy * np.exp(-np.pi * (1 - change) * energy), axis=-1)
+        yield np.sum(terms * np.exp(1j * np.pi * (n @ b)), axis=-1), error + ROUNDING * np.abs(terms).sum(axis=-1)
+
+
+def even_characteristics(genus):
+    """All (a, b) of 0 and 1 with an even a . b."""
+    halves = list(product((0, 1), repeat=genus))
+    return [(a, b) for a in halves for b in halves if np.dot(a, b) % 2 == 0]
+
+
+@dataclass(frozen=True)
+class Ball:
+    """All complex numbers within `error` of `value`, or arrays of them; operations widen them by their own rounding."""
+
+    value: Complexes | complex
+    error: Reals | float = 0.0
+
+    def __add__(self, other):
+        return _rounded(self.value + other.value, self.error + other.error)
+
+    def __mul__(self, other):
+        value = self.value * other.value
+        with np.errstate(invalid="ignore"):
+            error = np.abs(self.value) * other.error + self.error * (np.abs(other.value) + other.error)
+        return _rounded(value, np.where(np.isinf(self.error + other.error), np.inf, error))
+
+    def __truediv__(self, other):
+        least = np.abs(other.value) - other.error
+        quotient = self.value / other.value
+        with np.errstate(divide="ignore", invalid="ignore"):
+            error = (self.error + np.abs(quotient) * other.error) / least
+        return _rounded(quotient, np.where(least > 0, error, np.inf))
+
+    def __pow__(self, exponent):
+        return multiplied([self] * exponent)
+
+
+def _rounded(value, error):
+    return Ball(value, error * (1 + 4 * UNIT) + UNIT * np.abs(value))
+
+
+def total(balls):
+    return sum(balls, Ball(0))
+
+
+def multiplied(balls):
+    result = Ball(1)
+    for ball in balls:
+        result = result * ball
+    return result

@@ -43,12 +43,6 @@ std::optional<double> similarity(const mesh::Surface& a, const mesh::Surface& b,
   return found.empty() ? std::nullopt : std::optional(found.front().dilatation);
 }
 
-bool has_hyperelliptic_turn(const mesh::Surface& surface, int genus, const py::object& progress) {
-  Execution execution(1, callback(progress));
-  const py::gil_scoped_release unlocked;
-  return moduli::has_hyperelliptic_turn(surface, genus, execution);
-}
-
 // The slopes of n forms on the edges in the triangles, #T x n x 2.
 py::array form_slopes(const mesh::Surface& surface, const forms::RowMajorMatrix& values) {
   Execution execution;
@@ -188,10 +182,6 @@ void bind_equivalence(py::module_& m) {
   m.def(
       "short_basis", [](const Eigen::MatrixXd& form) { return copy(moduli::short_basis(form)); }, py::arg("form"));
   m.def("similarity", &similarity, py::arg("first"), py::arg("second"), py::arg("sign"), py::arg("progress"));
-  m.def("has_hyperelliptic_turn", &has_hyperelliptic_turn, py::arg("surface"), py::arg("genus"), py::arg("progress"));
-  m.def(
-      "symplectic_basis", [](const topology::IntegerMatrix& W) { return copy(topology::symplectic_basis(W)); },
-      py::arg("wedge_matrix"));
   m.def("compare", &compare, py::arg("first"), py::arg("second"), py::arg("allowed"), py::arg("needed"),
         py::arg("progress"));
   m.def("isometries", &isometries, py::arg("first"), py::arg("second"), py::arg("sign"), py::arg("slack"),

@@ -127,36 +127,11 @@ class Search {
   double scale_ = 1, largest_ = 0;
 };
 
-// Fixed points of a half turn that keeps the orientation: vertices, and middles of edges. (It turns no triangle.)
-std::optional<int> fixed_points(const Surface& surface, const std::vector<int>& twins, const Similarity& map) {
-  const auto image = [&](int side) { return next(map.sides[side / 3], side % 3); };
-  std::vector<char> is_fixed(surface.vertex_count, 0);
-  int turned_sides = 0;
-  for (int side = 0; side < static_cast<int>(twins.size()); ++side) {
-    const int to = image(side);
-    if (to == side || image(to) != side) return {};  // the identity, or no half turn
-    turned_sides += to == twins[side];
-    const int v = surface.triangles[side / 3][side % 3];
-    if (v == surface.triangles[to / 3][to % 3]) is_fixed[v] = 1;
-  }
-  return static_cast<int>(std::count(is_fixed.begin(), is_fixed.end(), 1)) + turned_sides / 2;
-}
-
 }  // namespace
 
 std::vector<Similarity> similarities(const Surface& a, const Surface& b, const SimilarityOptions& options,
                                      Execution& execution) {
   return Search(a, b, options, execution).run();
-}
-
-bool has_hyperelliptic_turn(const Surface& surface, int genus, Execution& execution) {
-  const std::size_t most = 84 * static_cast<std::size_t>(std::max(1, genus - 1));  // Hurwitz: there are no more
-  const auto twins = moduli::twins(surface);
-  const auto found = similarities(surface, surface, {.sign = 1, .most = most}, execution);
-  return std::any_of(found.begin(), found.end(), [&](const Similarity& map) {
-    const auto count = fixed_points(surface, twins, map);
-    return count && *count == 2 * genus + 2;
-  });
 }
 
 }  // namespace holomorph::moduli

@@ -33,8 +33,4 @@ struct SimilarityOptions {
 std::vector<Similarity> similarities(const mesh::Surface& a, const mesh::Surface& b, const SimilarityOptions& options,
                                      Execution& execution);
 
-/// Whether a half turn maps the connected closed surface to itself with 2g + 2 fixed points, so that the quotient is a
-/// sphere: then it is hyperelliptic. "False" proves nothing. @throws Cancelled
-bool has_hyperelliptic_turn(const mesh::Surface& surface, int genus, Execution& execution);
-
 }  // namespace holomorph::moduli

@@ -6,6 +6,7 @@ import families
 import flat_cones
 import numpy as np
 import pytest
+from curve_periods import curve_period_matrix
 from equivalence import gram_of, omega_of, random_symplectic, symplectic_unit
 from holomorph import (
     Cancelled,
@@ -15,7 +16,6 @@ from holomorph import (
     _native,
     conformal_structure,
     conformally_equivalent,
-    curve_period_matrix,
 )
 from holomorph.__main__ import main
 from holomorph.forms.period_matrix import PeriodMatrix

@@ -7,6 +7,7 @@ import flat_cones
 import numpy as np
 import pytest
 import sextics
+from curve_periods import curve_period_matrix
 from equivalence import random_symplectic
 from holomorph import TopologyError, conformal_structure, igusa_invariants
 from holomorph.moduli.igusa import enclosed, invariants
@@ -113,3 +114,11 @@ def test_what_keeps_them_wide_is_told():
 def test_other_surfaces_have_none(mesh):
     with pytest.raises(TopologyError, match="closed surface of genus 2"):
         igusa_invariants(conformal_structure(surface_of(mesh)))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_igusa_s_invariants_are_those_of_the_coefficients(seed):
+    coefficients = [2, *(int(c) for c in np.random.default_rng(seed).integers(-5, 6, 5)), 1]
+    omega = siegel_reduction(curve_period_matrix(coefficients)).period_matrix
+    for ball, exact in zip(invariants(omega), sextics.absolute(coefficients), strict=True):
+        assert abs(ball.value - float(exact)) <= ball.error + 1e-8 * max(abs(float(exact)), 1)

@@ -1,10 +1,8 @@
 """Similar triangulations: found however they are numbered, and only where all angles are the same."""
 
 import families
-import flat_cones
 import numpy as np
 import pytest
-import regular_maps
 from holomorph import Surface, _native
 from moebius_images import moebius_image
 from solved import surface_of
@@ -73,17 +71,3 @@ def test_other_surfaces_are_not_similar():
     assert similarity(torus, moebius_image(torus)) is None
     assert similarity(torus, families.triangles_of(families.torus(8, 12, jitter=0.2))) is None
     assert similarity(torus, families.subdivided(torus)) is None
-
-
-@pytest.mark.parametrize("sides", [8, 10, 12, 14, 16])
-def test_the_half_turn_of_a_regular_polygon(sides):
-    """Around its middle: a hyperelliptic curve, with 2g + 2 fixed points; a third of a turn is no half."""
-    flat = flat_cones.regular_polygon(sides)
-    surface = surface_of(flat)._native
-    assert _native.has_hyperelliptic_turn(surface, flat.genus, None)
-    assert not _native.has_hyperelliptic_turn(surface, flat.genus + 1, None)
-
-
-@pytest.mark.parametrize("mesh", [regular_maps.klein_quartic(), regular_maps.fermat_quartic()], ids=["Klein", "Fermat"])
-def test_half_turns_of_other_curves_have_fewer_fixed_points(mesh):
-    assert not _native.has_hyperelliptic_turn(surface_of(mesh)._native, 3, None)

@@ -110,7 +110,6 @@ def calls():
         "conformal_map": (holomorph.conformal_map, {"a": structure, "b": structure}),
         "conformal_structure": (conformal_structure, {"surface": surface}),
         "conformally_equivalent": (holomorph.conformally_equivalent, {"a": structure, "b": structure}),
-        "curve_period_matrix": (holomorph.curve_period_matrix, {"coefficients": [1, 0, 0, 0, -1]}),
         "cut_along": (holomorph.cut_along, {"structure": structure, "edges": structure.seams}),
         "cut_to_cones": (holomorph.cut_to_cones, {"disk": disk}),
         "disk_islands": (holomorph.disk_islands, {"surface": disk}),
