@@ -168,14 +168,15 @@ MUTATIONS = (
     )
     | of(
         PACKAGE + "moduli/equivalence.py",
-        ("exact", "EXACT = 1e-8", "EXACT = 1e-7", SURFACES),
+        ("near", "NEAR = 0.01", "NEAR = 0.1", SURFACES),
         ("agreement-loose", "AGREEMENT = 0.25", "AGREEMENT = 0.5", SURFACES),
         ("agreement-strict", "AGREEMENT = 0.25", "AGREEMENT = 0.1", SURFACES),
+        ("agreement-of-different", "found.residual <= first.rounding + second.rounding", "True", SURFACES),
     )
     | of(
-        ROOM + "moduli/similarities.h",
-        ("similar-loose", "kSimilar = 1e-8", "kSimilar = 1e-7", SIMILAR),
-        ("similar-strict", "kSimilar = 1e-8", "kSimilar = 1e-9", SIMILAR),
+        ROOM + "moduli/similarities.cpp",
+        ("similar-loose", "least_ <= most_}", "least_ <= 1.0000001 * most_}", SIMILAR),
+        ("similar-strict", "(size(a) + size(b))", "0", SIMILAR),
     )
     | of(
         PACKAGE + "moduli/igusa.py",

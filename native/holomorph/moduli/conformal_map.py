@@ -20,7 +20,8 @@ from ..forms.bounded import BoundedStructure
 from ..forms.closed import ConformalStructure
 from ..forms.refined_triangles import areas
 from ..mesh.surface import Surface
-from .equivalence import AGREEING, Equivalence, conformally_equivalent
+from .equivalence import AGREEING, Equivalence, by_topology, checked_tolerance, compared
+from .known_periods import side_of
 from .map_sides import sides
 
 STARTS = 12  # points of the second surface that are tried for one of the first
@@ -85,7 +86,8 @@ class ConformalMap(Value):
 
 def conformal_map(a: Mapped, b: Mapped, *, tolerance: float = 0.0, progress: Progress | None = None) -> ConformalMap:
     """The `ConformalMap` from structure `a` to structure `b`, closed of genus >= 1 or with boundary, which are
-    not told apart, or mirror images: then it reverses the orientation. `tolerance` as in `conformally_equivalent`.
+    not told apart by the bounds that they have, or mirror images: then it reverses the orientation. `tolerance` as in
+    `conformally_equivalent`.
 
     The integrals of forms that correspond by `Equivalence.matrix` are the same at corresponding points. The map begins
     at a point where the values of all forms agree best, on the boundary if there is one, and goes on along the edges of
@@ -109,7 +111,8 @@ def conformal_map(a: Mapped, b: Mapped, *, tolerance: float = 0.0, progress: Pro
     for structure in (a, b):
         if not isinstance(structure, Mapped):
             raise TypeError(f"a map needs structures with forms and without poles, not a {type(structure).__name__}")
-    found = conformally_equivalent(a, b, tolerance=tolerance, progress=scaled(progress, 0.0, 0.2))
+    known = by_topology(*(side_of(structure) for structure in (a, b)))
+    found = known or compared([a, b], checked_tolerance(tolerance), scaled(progress, 0.0, 0.2))
     if found.verdict not in AGREEING or found.matrix is None:
         raise TopologyError(f"no map can be made; {found.sentence}")
     matching = _Matching(sides(a, b, found), found.verdict == "mirror_image", progress)

@@ -22,7 +22,9 @@ from .planar import LOOPS_OF_ACHIRAL_SURFACES, planar_verdict
 
 ROUNDING = 1e-9  # relative error of residuals
 AGREEMENT = 0.25  # of the error bars: projected periods are more accurate, so meshes of one surface agree to less
-EXACT = 1e-8  # period matrices that certainly agree to this are taken for the same numbers
+NEAR = 0.01  # a distance that is certainly smaller needs no narrower bounds
+BARS = 0.25  # of what is to be seen: width of the bounds for it, twice the error bar of each surface
+MOST_NARROWINGS = 3
 VERDICTS = ("equivalent", "indistinguishable", "mirror_image", "not_equivalent", "undecided")
 AGREEING = VERDICTS[:3]
 STEPS = _native.isometry_steps  # limit of one search among integer matrices
@@ -32,9 +34,11 @@ STEPS = _native.isometry_steps  # limit of one search among integer matrices
 class Equivalence(Value):
     """What `conformally_equivalent` found.
 
-    verdict : "equivalent" where that is proven: by the topology, by triangles that are similar one by one, or by two
-        period matrices that agree to rounding. "indistinguishable" where the bounds do not tell the surfaces apart.
-        "mirror_image", proven or not; "not_equivalent", always proven; "undecided"
+    verdict : "equivalent" where that is proven: by the topology, or by numbers that are the same as far as they are
+        exact: one factor takes all lengths of the one triangulation to those of the other, however they are numbered,
+        moved and turned, or an integer matrix takes one given period matrix to the other. Given lengths are exact to
+        2.5 units of rounding, 2^-53, coordinates and periods to one. "indistinguishable" where the bounds do not tell
+        the surfaces apart. "mirror_image", proven or not; "not_equivalent", always proven; "undecided"
     is_proven : whether no error of the mesh or of the periods can make the verdict wrong
     sentence : the verdict and its reason, for people
     matrix : (n, n) integers R, the certificate: row i is class i of b written in the classes of a, R W_a R^T = W_b, or
@@ -74,8 +78,8 @@ def conformally_equivalent(
     "not_equivalent" is said where the error bars of the periods exclude all integer matrices; "indistinguishable", or
     "mirror_image", where one brings the projected periods as near as a quarter of the error bars' geometric mean, of
     the other's where one is exact, and the result's `tolerance` says how near the exact ones are for certain;
-    "undecided" else. A surface with both is called what it is nearer to. "equivalent" needs a proof: meshes that differ
-    by their place, size and numbers, or two matrices.
+    "undecided" else. A surface with both is called what it is nearer to. "equivalent" needs a proof, see `Equivalence`.
+    Bounds are narrowed until the verdict is decided and the distance is certainly below 1 %, or `tolerance`.
 
     Parameters
     ----------
@@ -88,7 +92,8 @@ def conformally_equivalent(
     Raises TopologyError for several components, and what `conformal_structure` raises; ValueError for a matrix that is
     none of periods; TypeError for what is neither; Cancelled.
 
-    Cost: that of both structures; the search takes seconds at most, and beyond a limit is "undecided".
+    Cost: that of both structures, with `bounds` up to three times; the search takes seconds at most, and beyond a limit
+    is "undecided".
     Source: Plesken & Souvignier (1997), with lattice points near a point for its candidates.
 
     Examples
@@ -97,26 +102,56 @@ def conformally_equivalent(
     >>> print(holomorph.conformally_equivalent(surface, surface).verdict)
     equivalent
     """
-    if real_number(tolerance, "tolerance") < 0:
-        raise ValueError(f"tolerance is {quoted(tolerance)}; it must not be negative")
+    tolerance = checked_tolerance(tolerance)
     first, second = side_of(a), side_of(b)
-    found = _by_topology(first, second)
+    found = by_topology(first, second)
     if found is not None:
         return found
-    structures = [
-        _structure(given, part, scaled(progress, start, start + 0.4))
-        for given, part, start in ((a, first, 0.0), (b, second, 0.4))
-    ]
+    sides = (a, first), (b, second)
+    structures = [_structure(*sides[i], scaled(progress, 0.2 * i, 0.2 * i + 0.2)) for i in range(2)]
+    found = compared(structures, tolerance, scaled(progress, 0.4, 0.5))
+    for k in range(MOST_NARROWINGS):
+        near = max(NEAR, tolerance)
+        if found.is_proven or (found.verdict != "undecided" and found.tolerance <= near):
+            break
+        width = BARS * min(near, found.residual if found.verdict == "undecided" else near)
+        step = scaled(progress, 0.5 + k / 6, 0.5 + (k + 1) / 6)
+        narrower = [_narrower(structures[i], width, scaled(step, 0.4 * i, 0.4 * i + 0.4)) for i in range(2)]
+        if narrower == structures:
+            break
+        structures = narrower
+        found = compared(structures, tolerance, scaled(step, 0.8, 1.0))
+    return found
+
+
+def checked_tolerance(tolerance):
+    if real_number(tolerance, "tolerance") < 0:
+        raise ValueError(f"tolerance is {quoted(tolerance)}; it must not be negative")
+    return float(tolerance)
+
+
+def compared(structures, tolerance, progress):
+    """The `Equivalence` of two structures or `KnownPeriods` of one topology, by the bounds that they have."""
+    sides = [side_of(each) if isinstance(each, Structure) else each for each in structures]
     lattices = [period_lattice(structure) for structure in structures]
     is_known = any(isinstance(structure, KnownPeriods) for structure in structures)
     needed = AGREEMENT * _common_bars(*(lattice.radius() for lattice in lattices), is_known)
-    made = _native.compare(*lattices, allowed=float(tolerance), needed=needed, progress=scaled(progress, 0.8, 0.9))
+    made = _native.compare(*lattices, allowed=tolerance, needed=needed, progress=scaled(progress, 0.0, 0.5))
     verdict, isometry = made.verdict.name, made.isometry
-    if verdict == "indistinguishable" and first.genus == 0 and first.boundary_count > LOOPS_OF_ACHIRAL_SURFACES:
-        verdict, isometry = _planar(structures, lattices, made, scaled(progress, 0.9, 0.9))
+    if verdict == "indistinguishable" and sides[0].genus == 0 and sides[0].boundary_count > LOOPS_OF_ACHIRAL_SURFACES:
+        verdict, isometry = _planar(structures, lattices, made, scaled(progress, 0.5, 0.5))
     is_bounded = all(structure.period_bounds is not None for structure in structures)
     found = _equivalence(verdict, isometry, made, is_bounded)
-    return _proven(found, first, second, scaled(progress, 0.9, 1.0))
+    return found if found.verdict == "not_equivalent" else _proven(found, *sides, scaled(progress, 0.5, 1.0))
+
+
+def _narrower(structure, width, progress):
+    """The structure with bounds of this relative width, if they can be had."""
+    if isinstance(structure, KnownPeriods) or not structure.certificate.relative_width > width:
+        return structure
+    if not structure._native.memory().keeps_forms:
+        return structure
+    return conformal_structure(structure.surface, bounds=width, threads=structure._threads, progress=progress)
 
 
 def _common_bars(first, second, is_known):
@@ -139,7 +174,7 @@ def _planar(structures, lattices, made, progress):
     return verdict, made.isometry
 
 
-def _by_topology(first, second):
+def by_topology(first, second):
     """The `Equivalence` of surfaces whose topology decides it, else None."""
     genus, loops = first.genus, first.boundary_count
     if (genus, loops) != (second.genus, second.boundary_count):
@@ -169,27 +204,31 @@ def _equivalence(verdict, isometry, made, is_bounded):
     matrix, residual = (isometry.matrix, isometry.residual) if isometry else (None, math.inf)
     if isometry:
         tolerance += residual - made.isometry.residual
-    sentence = _sentence(verdict, residual, tolerance, margin, made.is_complete, is_bounded)
-    return Equivalence(verdict, sentence, matrix, residual, tolerance, margin, verdict == "not_equivalent")
+    found = Equivalence(verdict, "", matrix, residual, tolerance, margin, verdict == "not_equivalent")
+    return replace(found, sentence=_sentence(found, made.is_complete, is_bounded))
 
 
 def _proven(found, first, second, progress):
-    """What was found, with the proof of an equivalence if there is one."""
+    """What was found, with the proof of an equivalence if there is one, or with what triangles tell of the distance."""
     known = [isinstance(side, KnownPeriods) for side in (first, second)]
-    # The tolerance is the sum of residual and error bars: these have to account for all of the residual.
-    if all(known) and found.verdict in AGREEING and found.tolerance <= EXACT and found.residual <= found.tolerance / 2:
+    if all(known) and first.is_exact and second.is_exact and found.residual <= first.rounding + second.rounding:
         return _with_proof(found, found.verdict != "mirror_image", "their periods agree to rounding")
-    if any(known) or found.verdict == "not_equivalent":
+    if any(known):
         return found
     is_achiral = first.genus == 0 and first.boundary_count <= LOOPS_OF_ACHIRAL_SURFACES
     signs = {"indistinguishable": (1, -1) if is_achiral else (1,), "mirror_image": (-1,)}
     for sign in signs.get(found.verdict, (1, -1)):
-        dilatation = _native.similarity(first._native, second._native, sign, progress)
-        if dilatation is not None:
-            nearest = replace(found, tolerance=min(found.tolerance, dilatation))
+        similar = _native.similarity(first._native, second._native, sign, progress)
+        if similar is None:
+            continue
+        nearest = replace(found, tolerance=min(found.tolerance, similar.dilatation))
+        # Beyond, narrower bounds might tell the surfaces apart.
+        if similar.is_exact and similar.dilatation <= ROUNDING:
             if found.verdict == "undecided":  # its matrix may have the other sign
                 nearest = replace(nearest, matrix=None, residual=math.inf)
             return _with_proof(nearest, sign > 0 or is_achiral, "their triangles are similar, to rounding")
+        if found.verdict in AGREEING and math.isfinite(nearest.tolerance):
+            return replace(nearest, sentence=_sentence(nearest))
     return found
 
 
@@ -198,33 +237,32 @@ def _with_proof(found, is_same, reason):
     return replace(found, verdict=verdict, sentence=f"{begin}: {reason}.", is_proven=True)
 
 
-def _sentence(verdict, residual, tolerance, margin, is_complete, is_bounded):
-    if verdict == "not_equivalent":
+def _sentence(found, is_complete=True, is_bounded=True):
+    if found.verdict == "not_equivalent":
+        if not found.margin:  # its search came to no end
+            return "Not equivalent: no integer matrix takes the periods of one to those of the other."
         return (
-            f"Not equivalent: every map stretches some direction at least {_factor(margin)} times as much as another."
+            f"Not equivalent: every map stretches some direction at least {_percent(found.margin, math.floor)} more "
+            "than another."
         )
-    agree = "their periods " + ("agree to rounding" if residual <= ROUNDING else f"differ by {_percent(residual)}")
-    if verdict in AGREEING:
-        begin = "Indistinguishable" if verdict == "indistinguishable" else "Mirror images"
+    agree = f"their periods differ by {_percent(found.residual)}"
+    if found.verdict in AGREEING:
+        begin = "Indistinguishable" if found.verdict == "indistinguishable" else "Mirror images"
         if not is_bounded:
             return f"{begin}, but without a bound, since a surface has degenerate triangles: {agree}."
-        return f"{begin} within {_percent(tolerance)}: {agree}."
+        return f"{begin} within {_percent(found.tolerance)}: {agree}."
     if not is_bounded:
         return "Undecided: a surface has degenerate triangles, so the bounds hold for a slightly different one."
     if not is_complete:
         return f"Undecided: the search among integer matrices reached its limit of {STEPS} steps."
-    bound = f"with an error certainly below {_percent(tolerance)}"
+    bound = f"with an error certainly below {_percent(found.tolerance)}"
     return f"Undecided: {agree}, {bound}; narrower `bounds` may tell."
 
 
-def _percent(distance):
-    """A logarithm as per cent, rounded up to two digits."""
+def _percent(distance, rounding=math.ceil):
+    """A logarithm as per cent, rounded to two digits."""
     value = 100 * math.expm1(distance)
-    return f"{_rounded(value, math.ceil):.12g} %"
-
-
-def _factor(margin):
-    return f"{math.floor(math.exp(margin) * 1e4) / 1e4:.5g}"
+    return f"{_rounded(value, rounding):.12g} %"
 
 
 def _rounded(value, rounding):

@@ -22,9 +22,13 @@ class KnownPeriods:
 
     def __init__(self, period_matrix):
         omega = checked_period_matrix(period_matrix)
-        change = np.abs(np.asarray(period_matrix) - omega) + len(omega) * np.finfo(float).eps * np.abs(omega)
+        unit = np.finfo(float).eps / 2
+        change = np.abs(np.asarray(period_matrix) - omega) + 2 * len(omega) * unit * np.abs(omega)
         self.period_matrix: Complexes = arrays.frozen(omega)
         self.error = getattr(period_matrix, "error", 0.0) + distance_within(omega, change)
+        # Of its entries alone, half a unit in the last place, and of a distance that is measured.
+        self.rounding = distance_within(omega, unit * np.abs(omega)) + len(omega) * unit
+        self.is_exact = self.error <= 2 * len(omega) * self.rounding
         self.genus = len(omega)
         widths = np.exp([-self.error, self.error])
         self.period_bounds = widths[0] * omega.imag, widths[1] * omega.imag

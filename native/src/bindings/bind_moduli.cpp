@@ -35,12 +35,11 @@ moduli::Isometries isometries(const PeriodLattice& a, const PeriodLattice& b, in
   return moduli::isometries(a, b, {sign, slack}, execution);
 }
 
-// The dilatation of a similarity of two connected surfaces; None where none was found.
-std::optional<double> similarity(const mesh::Surface& a, const mesh::Surface& b, int sign, const py::object& progress) {
+std::optional<moduli::Similarity> similarity(const mesh::Surface& a, const mesh::Surface& b, int sign,
+                                             const py::object& progress) {
   Execution execution(1, callback(progress));
   const py::gil_scoped_release unlocked;
-  const auto found = moduli::similarities(a, b, {.sign = sign}, execution);
-  return found.empty() ? std::nullopt : std::optional(found.front().dilatation);
+  return moduli::similarity(a, b, sign, execution);
 }
 
 // The slopes of n forms on the edges in the triangles, #T x n x 2.
@@ -162,6 +161,9 @@ void bind_equivalence(py::module_& m) {
       .def_readonly("triangles", &Images::triangles)
       .def_readonly("barycentric", &Images::barycentric)
       .def_readonly("residuals", &Images::residuals);
+  py::class_<moduli::Similarity>(m, "Similarity")
+      .def_readonly("dilatation", &moduli::Similarity::dilatation)
+      .def_readonly("is_exact", &moduli::Similarity::is_exact);
   py::class_<PeriodLattice>(m, "PeriodLattice")
       .def_static("closed", &moduli::closed_lattice, py::arg("gram"), py::arg("wedge"))
       .def_static("bounded", &moduli::bounded_lattice, py::arg("natural_gram"), py::arg("dirichlet_gram"),

@@ -99,10 +99,12 @@ double energy_growth(const std::array<RoundedLength, 3>& sides, double* open) {
   return is_open ? 1 : eta * (1 + eta);
 }
 
+double length_error(const Surface& surface) { return surface.intrinsic() ? kOfGivenLength : kOfDistance; }
+
 Array<FaceError> metric_errors(const Metric& t, const Surface& surface, Workers& workers) {
   Array<FaceError> errors(t.half_edges.n_faces());
   const bool given = !surface.metric_errors.empty();
-  const double of_length = surface.intrinsic() ? kOfGivenLength : kOfDistance;
+  const double of_length = length_error(surface);
   for_rows(workers, static_cast<int>(t.half_edges.n_halfedges()), [&](int i) {
     const HalfedgeHandle h(i);
     if (t.half_edges.is_boundary(h) || !is_first_of_face(t.half_edges, h)) return;

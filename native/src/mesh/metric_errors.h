@@ -34,6 +34,9 @@ struct Metric {
   std::span<const FaceError> errors;
 };
 
+/// Relative error of the lengths of a surface: of those from positions, which are exact, or of given ones.
+double length_error(const Surface& surface);
+
 /// Bounds the errors that the rounding of a surface's lengths causes: the given ones (Surface::metric_errors), or
 /// those of lengths from positions.
 Array<FaceError> metric_errors(const Metric& metric, const Surface& surface, Workers& workers);
