@@ -46,7 +46,7 @@ def _loops(points, g):
         middle, half = (start + end) / 2, (end - start) / 2
         turned = angles[others] + np.angle((middle - points[others]) / (start - points[others]))
         x = middle + half * cosines[:, None]
-        # Of the other points: roots of (x - e) / (middle - e), which stay on one branch along the edge.
+        # For the other points, roots of (x - e) / (middle - e), which stay on one branch along the edge.
         roots = np.sqrt(np.abs(middle - points[others])) * np.exp(0.5j * turned)
         rest = np.prod(roots * np.sqrt((x - points[others]) / (middle - points[others])), axis=1)
         both = np.exp(0.5j * (angles[k] + angles[k + 1]))  # of (x - e_k) (x - e_(k+1)), times |half| sin

@@ -26,7 +26,7 @@ class KnownPeriods:
         change = np.abs(np.asarray(period_matrix) - omega) + 2 * len(omega) * unit * np.abs(omega)
         self.period_matrix: Complexes = arrays.frozen(omega)
         self.error = getattr(period_matrix, "error", 0.0) + distance_within(omega, change)
-        # Of its entries alone, half a unit in the last place, and of a distance that is measured.
+        # Half a unit in the last place of each entry, and the error of a distance that is measured.
         self.rounding = distance_within(omega, unit * np.abs(omega)) + len(omega) * unit
         self.is_exact = self.error <= 2 * len(omega) * self.rounding
         self.genus = len(omega)

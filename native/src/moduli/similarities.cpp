@@ -171,7 +171,7 @@ class Search {
   std::vector<double> errors_a_, errors_b_;
   std::int64_t steps_left_;
   double scale_ = 1, limit_ = kSimilar;
-  // Of the walk: dilatation of lengths as they are, and by their errors; the factors that all lengths allow.
+  // The walk so far: dilatation of lengths as they are, and by their errors; the factors that all lengths allow.
   double largest_ = 0, largest_error_ = 0, least_ = 0, most_ = 0;
 };
 

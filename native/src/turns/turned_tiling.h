@@ -31,7 +31,7 @@ struct TurnedTiling {
   TurnedMap map;  ///< its UVs in the plane: the unit square is one tile, of the hexagonal lattice for sixth turns
   Rows rows = Rows::kNone;
   uv::Quality quality;
-  /// Of the map before it was evened, which is conformal but for its whole numbers and the size of triangles: the mean
+  /// Before the map is evened it is conformal, but for its whole numbers and the size of triangles. The mean, then,
   /// over the area of s1 / s2, at most 10 and of flipped triangles 10, and the root mean square of the Beltrami
   /// coefficient, at most 1 and of flipped triangles 1.
   double added_distortion = 1, beltrami_rms = 0;

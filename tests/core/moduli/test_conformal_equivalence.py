@@ -187,15 +187,15 @@ def test_one_moved_vertex_leaves_no_proof(g):
     assert made.verdict in ("indistinguishable", "undecided") and not made.is_proven
 
 
-@pytest.mark.parametrize(("change", "verdict"), [(1e-4, "not_equivalent"), (1e-6, "indistinguishable")])
+@pytest.mark.parametrize(("change", "verdict"), [(0.02, "not_equivalent"), (1e-4, "indistinguishable")])
 def test_tori_that_differ_by_little_are_not_called_equivalent(change, verdict):
-    """Bounds are narrowed until they tell, or to 1 %. Im tau is about 1 / sqrt(R^2 - 1)."""
+    """Bounds are narrowed until they tell; triangles tell how near. Im tau is about 1 / sqrt(R^2 - 1)."""
     made = equivalent(*(surface_of(families.torus(32, 24, R=R)) for R in (1.5, 1.5 + change)))
     distance = 1.5 / (1.5**2 - 1) * change
     assert made.verdict == verdict and made.is_proven == (verdict == "not_equivalent")
     if made.is_proven:
         assert 0.1 * distance < made.margin < 2 * distance
-        assert made.sentence.startswith("Not equivalent: every map stretches some direction at least 0.00")
+        assert made.sentence.startswith("Not equivalent: every map stretches some direction at least 1.")
     else:
         assert made.residual == pytest.approx(distance, rel=0.5)
         assert made.residual < made.tolerance <= NEAR

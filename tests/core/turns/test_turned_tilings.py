@@ -261,7 +261,7 @@ def test_cones_that_cost_much_lie_where_they_are_seen_least():
 @pytest.mark.parametrize("tiles", [12.0, 300.0])
 @pytest.mark.parametrize("turns", [2, 4, 6])
 def test_added_distortion_counts_angles_and_flips(tiles, turns):
-    """Of the map before it is evened, from its singular values."""
+    """The singular values of the map before it is evened tell them."""
     block = surface_of(block_of_three_holes())
     made = tiling(block, turns, tiles, evenness=0.0)
     is_lost = made.quality.flipped | made.quality.collapsed
