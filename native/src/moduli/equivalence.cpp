@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/held.h"
 #include "lattice/near_points.h"
 #include "linear/dense.h"
 
@@ -228,7 +229,7 @@ class Judge {
     for (double part = kFirstPart; is_complete && part <= 1; part *= kGrowth) {
       if (!take_nearest(a, b, std::max(kLeastTolerance, part * needed), is_complete)) continue;
       result_.verdict = result_.sign > 0 ? Verdict::indistinguishable : Verdict::mirror_image;
-      result_.margin = needed - result_.isometry->residual;
+      result_.margin = needed - held(result_.isometry).residual;
       return true;
     }
     return false;
