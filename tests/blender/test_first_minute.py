@@ -212,7 +212,7 @@ def test_a_poor_map_is_a_warning(level, told):
     outcome = module("results.report").Outcome()
     said = {"verdict": {"level": level, "sentence": "Even"}, "bake": {"level": "good", "sentence": "Nothing overlaps"}}
     entry = said | {"components": [], "faces_without_area": 0, "whole": {"text": ""}}
-    outcome.judge(SimpleNamespace(name="Ring"), entry)
+    outcome.judge(SimpleNamespace(name="Ring"), SimpleNamespace(parts=[]), entry)
     assert (outcome.problems, outcome.notes) == told
 
 
