@@ -216,12 +216,30 @@ def _mapped_together(solved, options, progress):
     made = [_object(one, own, *one.maps[asked, together]) for one, own, asked in zip(solved, options, together)]
     if not any(one.is_astray for one in made):
         return made
-    anew = [_with_chosen_poles(own) if one.is_astray else own for one, own in zip(made, options)]
+    anew = [_with_poles(one, own) if one.is_astray else own for one, own in zip(made, options)]
     return _mapped_together(solved, anew, progress)
 
 
-def _with_chosen_poles(options):
-    return replace(options, tiling=replace(options.tiling, poles=options.tiling.points, moved=(), points=()))
+def _with_poles(made, options):
+    """The options for poles that went astray: all of them are chosen first. A choice leaves out those that these dials
+    do not need, so of what was dragged, the nearest of the others is dragged there then."""
+    asked = options.tiling
+    if asked.moved or asked.poles == asked.points:
+        dragged = tuple(vertex for _, vertex in asked.moved)
+        return replace(options, tiling=replace(asked, poles=asked.points, moved=(), points=dragged))
+    moves = [move for part in made.tiled if part.tiling for move in _drags(part, asked.points)]
+    return replace(options, tiling=replace(asked, moved=tuple(moves), points=()))
+
+
+def _drags(part, dragged):
+    """(index of a pole, vertex) of the vertices of this part that should be poles of it and are not."""
+    poles, surface = part.vertices(part.tiling.poles), part.component.surface
+    places, free = surface.vertices[part.tiling.poles], ~np.isin(poles, dragged)
+    for vertex in np.setdiff1d(np.intersect1d(dragged, surface.vertex_index), poles)[: free.sum()]:
+        here = surface.vertices[surface.vertex_index == vertex][0]
+        nearest = np.where(free, np.linalg.norm(places - here, axis=1), np.inf).argmin()
+        free[nearest] = False
+        yield int(nearest), int(vertex)
 
 
 def _asked(solved, options):

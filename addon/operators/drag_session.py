@@ -144,8 +144,9 @@ class Session:
             raise ValueError(native.sentence(result))
         before = [part.component for part in self._tiled(self.mapped)] if self.mapped else []
         for part in result.parts:
-            if part.skipped and any(part.component is component for component in before):
-                raise ValueError(part.skipped)
+            reason = part.skipped or part.not_seamless
+            if reason and any(part.component is component for component in before):
+                raise ValueError(reason)
         return result
 
     def show(self, made):

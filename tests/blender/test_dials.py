@@ -1,6 +1,7 @@
 """One set of values: the dials of an object, from which everything starts, and which a map follows."""
 
 import json
+from itertools import chain
 from types import SimpleNamespace
 
 import bpy
@@ -201,13 +202,13 @@ def test_tiles_keep_the_size_that_they_have_on_other_objects():
 OTHERS = {"tiles": 30, "evenness": 0.75, "direction": "Z", "texture": "WEAVE", "quarters": 1, "seams": True}
 
 
-def dragged(obj, **options):
-    """The vertex to which the first point of a map of these dials is dragged."""
+def dragged(obj, neighbour=0, **options):
+    """The neighbour, this one of them, to which the first point of a map of these dials is dragged."""
     bpy.ops.uv.holomorphic_maps(**options)
     (tiling,) = [part["tiling"] for part in stored_report(obj)["components"] if "tiling" in part]
     taken = tiling["cones"] or tiling["poles"]
-    near = [set(edge.vertices) - {taken[0]} for edge in obj.data.edges if taken[0] in edge.vertices]
-    place = next(vertex for (vertex,) in near if vertex not in taken)
+    near = {*chain(*(edge.vertices for edge in obj.data.edges if taken[0] in edge.vertices))}
+    place = sorted(near.difference(taken))[neighbour]
     assert bpy.ops.uv.holomorphic_drag_poles(moves=f"0:{place}") == {"FINISHED"}
     return place
 
@@ -217,10 +218,11 @@ def points(obj):
     return {vertex for tiling in found for vertex in (*tiling["poles"], *tiling["cones"])}
 
 
-@pytest.mark.parametrize("turns", ["NONE", "QUARTER"])
-def test_a_point_stays_where_it_was_dragged_whatever_dial_is_turned(turns, tmp_path):
+# With 30 tiles fewer points are needed: of all, that of neighbour 1 would be left out.
+@pytest.mark.parametrize(("turns", "neighbour"), [("NONE", 0), ("NONE", 1), ("QUARTER", 0)])
+def test_a_point_stays_where_it_was_dragged_whatever_dial_is_turned(turns, neighbour, tmp_path):
     obj = mesh_object("Ball", *sphere_arrays(3))
-    place = dragged(obj, turns=turns)
+    place = dragged(obj, neighbour, turns=turns)
     assert place in points(obj)
     for name, value in OTHERS.items():
         setattr(obj.holomorph_map, name, value)
@@ -236,6 +238,13 @@ def test_a_point_stays_where_it_was_dragged_whatever_dial_is_turned(turns, tmp_p
     assert place in points(obj)
     bpy.ops.uv.holomorphic_automatic_points()
     assert obj.holomorph_map.moved == "" and not is_behind(obj)
+
+
+def test_a_point_is_not_dragged_to_where_the_map_would_have_cuts():
+    obj = mesh_object("Ball", *sphere_arrays(3))
+    with pytest.raises(RuntimeError, match="share vertex 104: take vertices farther apart"):
+        dragged(obj, 2, turns="NONE")
+    assert obj.holomorph_map.moved == "" and len(points(obj)) == 9
 
 
 def test_selected_points_stay_after_they_are_no_longer_selected():
