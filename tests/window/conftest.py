@@ -34,7 +34,7 @@ def takes_extensions():
 
 
 def take(name, folder, *options, **environment):
-    """What the steps of the script name.py saw, in one run of Blender."""
+    """What the steps of the script NAME.py saw, in one run of Blender."""
     screen = "-screen 0 1600x1000x24 +extension GLX"
     command = ["xvfb-run", "-a", "-s", screen, BLENDER, "--factory-startup", "--enable-event-simulate"]
     command += ["--window-geometry", "0", "0", "1600", "1000", *options]
@@ -71,7 +71,7 @@ def installed(takes_extensions, folder, tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def take_steps(takes_extensions, folder, tmp_path_factory, request):
-    """take_steps(name): what the steps of the script name.py saw, with the add-on."""
+    """take_steps(name): what the steps of the script NAME.py saw, with the add-on."""
     if takes_extensions:
         own, _ = request.getfixturevalue("installed")
         return lambda name: take(name, folder, "--addons", MODULE, BLENDER_USER_RESOURCES=str(own))

@@ -59,7 +59,7 @@ IntegerMatrix checked_product(const IntegerMatrix& A, const IntegerMatrix& B);
 /// Returns the lattice whose bounds are the projected energies, as if these were exact.
 PeriodLattice projected_lattice(const PeriodLattice& lattice);
 
-/// Returns the half-width of the bounds, in the metric of isometries.h: log of the largest ratio of `upper` and
+/// Returns the half-width of the bounds, in the metric of equivalence.h: log of the largest ratio of `upper` and
 /// `projected`.
 double radius(const PeriodLattice& lattice);
 

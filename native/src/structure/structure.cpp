@@ -58,7 +58,7 @@ HarmonicForms streamed_forms(const mesh::Surface& surface, const Topology& topol
 }
 
 // Bounds of streamed forms may cross by this many times the asymmetry of their Gram matrix, which shows the residuals
-// of their linear systems (streamed_forms.h). Other forms have none.
+// of their linear systems (certified_forms.h). Other forms have none.
 constexpr double kOfAsymmetry = 10;
 
 }  // namespace

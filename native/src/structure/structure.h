@@ -62,7 +62,7 @@ struct Structure {
 };
 
 /// Writes the UVs, #C x 2, of the real and imaginary part of sum_k p_k h_k, from its function sum_k p_k f_k, #V x 2.
-/// Triangles of the stars of poles have an apex each (uv/apexes.h).
+/// Triangles of the stars of poles have an apex each (mesh/stars.h).
 /// @throws SolverError where a UV is not finite
 void write_uv_map(const Structure& structure, const uv::UvArray& function, const Eigen::VectorXcd& p,
                   Eigen::Ref<uv::UvArray> corners, Workers& workers);

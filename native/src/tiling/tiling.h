@@ -53,7 +53,7 @@ struct Tiling {
 /// @throws TopologyError where nothing with that few tiles is seamless; SolverError; Cancelled
 Tiling tile(const Placement& placement, const TilingOptions& options, Execution& execution);
 
-/// Moves some poles of a tiling (candidate.h). Nothing is rounded again, so it is quick.
+/// Moves some poles of a tiling (rounding_candidate.h). Nothing is rounded again, so it is quick.
 /// @param tiling made of this placement
 /// @throws TopologyError for poles that do not fit; SolverError; Cancelled
 Tiling move_poles(const Placement& placement, const Tiling& tiling, const std::vector<PoleMove>& moves, double evenness,

@@ -78,6 +78,9 @@ WORDS = {
 BARE_OF = re.compile(r'^\s*(?://[/!]?|#|""")<?\s*Of\b', re.MULTILINE)  # a comment that begins so is not a sentence
 BESIDE_ROOMS = {"automatic_map", "command_line", "files", "python", "repository"}  # in tests/core
 COMMENTED = ("native/holomorph", "addon", "tests", "benchmarks", "blend_examples", "docs")
+OWN_FOLDERS = ("native", "addon", "tests", "scripts", "docs", "benchmarks", "examples", "blend_examples")
+DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef)
+OTHERS_FILES = {"cholmod.h", "sysexits.h", "script.py", "program.cpp", "ops.py"}  # of other projects, or of readers
 HEADER_LINES = 110
 FILE_LINES = 250
 
@@ -197,6 +200,51 @@ def test_public_headers_include_rooms_alone():
         f'"{path.relative_to(NATIVE)}"' for path in NATIVE.rglob("*.h")
     }
     assert not missing
+
+
+def drawn_rooms():
+    """{room: rooms below it} as CONTRIBUTING draws both pictures: a comma stands between rooms beside each other."""
+    rows = re.findall(r"^    (.* <- .*)$", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"), re.MULTILINE)
+    arrows = {}
+    for row in rows:
+        groups = [group.split(", ") for group in row.split(" <- ")]
+        for lower, upper in zip(groups, groups[1:]):
+            for room in upper:
+                arrows.setdefault(room, set()).update(lower)
+        arrows |= {room: set() for room in groups[0] if room not in arrows}
+    return {room: rooms_below(room, arrows) for room in arrows}
+
+
+def test_the_pictures_of_the_rooms_show_the_tables():
+    tables = [{room: rooms_below(room, table) - {""} for room in table if room} for table in (ROOM_BELOW, ADDON_BELOW)]
+    assert drawn_rooms() == tables[0] | tables[1]
+    assert ", ".join(PACKAGE_ROOMS).rstrip(", ") in (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+
+
+def test_files_that_are_named_are_there():
+    """In comments, docstrings and pages, by a part of the path or the name alone."""
+    named = re.compile(r"(?<![\w./<*-])(?:[a-z]\w*/)*[a-z]\w*\.(?:h|cpp|py)\b(?![.(])")
+    own = [path for name in OWN_FOLDERS for path in (ROOT / name).rglob("*") if "lib" not in path.parts]
+    there = {f"/{identify(path)}" for path in own}
+    wrong = []
+    for path in [*own, *ROOT.glob("*.md")]:
+        if path.suffix in {".h", ".cpp", ".py", ".md"} and path.name != "CHANGELOG.md":
+            found = {name for name in named.findall(written(path)) if "NAME" not in name} - OTHERS_FILES
+            wrong += [
+                f"{identify(path)} names {name}" for name in found if not any(p.endswith(f"/{name}") for p in there)
+            ]
+    assert not wrong
+
+
+def written(path):
+    """What a file says in words: a page without its blocks of code, comments and docstrings."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".md":
+        return re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)
+    if path.suffix == ".py":
+        docs = [ast.get_docstring(node) for node in ast.walk(ast.parse(text)) if isinstance(node, DOCUMENTED)]
+        return "\n".join([*filter(None, docs), *re.findall(r"(?m)(?:^|\s)# .*", text)])
+    return "\n".join(re.findall(r"(?m)(?:^|\s)//.*", text))
 
 
 def test_all_rooms_are_installed():

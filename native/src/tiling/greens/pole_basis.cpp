@@ -98,7 +98,8 @@ void PoleBasis::solve(const structure::Options& options, Execution& execution) {
   structure_.differentials = structure_.holomorphic().differentials;
   const auto values = uv::values_on_sides(surface(), *sides_, harmonic(), samples_);
   holomorphic_ = uv::sampled_parts(surface(), {samples_, values}, structure_.differentials);
-  // Maps of polygons have triangles of their own (seamless_maps.h), and Green's functions are solved for on the level.
+  // Maps of polygons have triangles of their own (tiling/maps/assemble.h), and Green's functions are solved for on the
+  // level.
   if (on_level_ && surface().has_diagonals()) solver_.reset();
 }
 

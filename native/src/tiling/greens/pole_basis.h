@@ -48,7 +48,7 @@ class PoleBasis {
   int form_count() const { return static_cast<int>(structure_.differentials.cols()); }
   bool has_jacobian() const { return closed() && form_count() > 0; }
 
-  /// theta_j on the samples: A, and B of the discretisation (uv/log_variance.h).
+  /// theta_j on the samples: A, and B of the discretisation (uv/density_objective.h).
   const uv::SampledParts& holomorphic() const { return holomorphic_; }
   const std::vector<int>& samples() const { return samples_; }
   /// #triangles x #harmonic forms: h_x - i h_y of the harmonic forms on triangles, x along side 0.

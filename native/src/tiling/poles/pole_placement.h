@@ -9,8 +9,8 @@ namespace holomorph::tiling {
 /// Finds the most even form with `count` poles. Poles are added one by one where they help most. Then each in turn
 /// moves to where the density becomes more even, or is removed and added anew, until nothing is gained. At last some
 /// more are added, and those that matter least are removed. On a closed surface with handles a small term keeps them
-/// where moving them can take up the rounding of the periods (jacobian.h). The fixed ones are among them. With a mirror
-/// they lie in pairs and on its plane, unless they have no room there.
+/// where moving them can take up the rounding of the periods (inversion/abel_jacobi.h). The fixed ones are among
+/// them. With a mirror they lie in pairs and on its plane, unless they have no room there.
 /// @throws TopologyError for a single pole on a closed surface, for none on a surface of genus 0, and where no vertex
 /// is left whose star is apart from the others. SolverError; Cancelled
 MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, int count, Execution& execution);

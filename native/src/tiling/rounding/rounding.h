@@ -41,8 +41,8 @@ struct RoundingRecord {
 /// fewer targets are rounded.
 class RoundingSearch {
  public:
-  /// @pre the problem outlives this; its number of tiles may change. @throws SolverError as lattice.h does; Cancelled
-  /// Cost: a reduction for each of five weights.
+  /// Costs a reduction for each of five weights. @pre the problem outlives this; its number of tiles may change.
+  /// @throws SolverError as lattice/reduction.h does; Cancelled
   RoundingSearch(const RoundingProblem& problem, const RoundingOptions& options, Execution& execution);
 
   /// Returns the best roundings, the best first. There is none if each one distorts too much or is much less even than
