@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 namespace holomorph::turns {
 namespace {
@@ -14,7 +16,7 @@ constexpr double kOnItsHead = 0.5;  // beside 1 for what lies on its side, as in
 // The price of an edge that turns and is as long as the root of the area, where it is smooth. It falls to the part
 // where the edge bends by the angle. Little, as no texture that the map is made for shows where it turns.
 constexpr double kSeam = 0.02, kHard = 0.06, kHiding = std::numbers::pi / 3;
-constexpr int kRounds = 30;  // at most: they end where nothing is gained
+constexpr int kRounds = 30;  // at most, and looks at each polygon or region in one: they end where nothing is gained
 constexpr double kGain = 1e-9;
 
 // What is minded of a texture turned by this angle from up.
@@ -168,44 +170,42 @@ class Turner {
     return region;
   }
 
-  // Turns each region that this makes better, but none beside one that was turned. @return whether there was one
+  // Turns regions one after the other while that makes one better; then those beside it are looked at again.
+  // @return whether there was one
   bool turn_regions(const std::vector<int>& region, int count, std::vector<int>& s) const {
-    std::vector<double> change(static_cast<std::size_t>(count) * k_, 0.0);
+    std::vector<double> minded(static_cast<std::size_t>(count) * k_, 0.0);
     for (int p = 0; p < count_; ++p) {
-      for (int r = 1; r < k_; ++r)
-        change[region[p] * k_ + r] += minded_[p * k_ + reduced(s[p] + r)] - minded_[p * k_ + s[p]];
+      for (int r = 0; r < k_; ++r) minded[region[p] * k_ + r] += minded_[p * k_ + reduced(s[p] + r)];
     }
-    std::vector<std::vector<int>> beside(count);
-    for (const Link& link : links_) {
-      const int one = region[link.one], other = region[link.other];
-      if (one == other) continue;
-      beside[one].push_back(other);
-      beside[other].push_back(one);
-      const int now = left(link, s);
-      for (int r = 1; r < k_; ++r) {
-        change[one * k_ + r] += ((now == r ? 0 : 1) - (now == 0 ? 0 : 1)) * link.price;
-        change[other * k_ + r] += ((reduced(now + r) == 0 ? 0 : 1) - (now == 0 ? 0 : 1)) * link.price;
+    std::vector<std::vector<int>> of_region(count);  // links to others
+    for (int l = 0; l < std::ssize(links_); ++l) {
+      const int one = region[links_[l].one], other = region[links_[l].other];
+      if (one != other) of_region[one].push_back(l), of_region[other].push_back(l);
+    }
+    std::vector<int> by(count, 0), queue(count);
+    std::iota(queue.begin(), queue.end(), 0);
+    std::vector<char> waits(count, 1);
+    const std::size_t most = static_cast<std::size_t>(kRounds) * count;
+    for (std::size_t i = 0; i < queue.size() && i < most; ++i) {
+      const int own = queue[i];
+      waits[own] = 0;
+      // What is minded, less the prices of the links that do not turn then.
+      std::vector<double> price(minded.begin() + own * k_, minded.begin() + (own + 1) * k_);
+      for (const int l : of_region[own]) {
+        const Link& link = links_[l];
+        const int one = region[link.one], other = region[link.other], now = left(link, s);
+        price[one == own ? reduced(now + by[other]) : reduced(by[one] - now)] -= link.price;
+      }
+      const int best = static_cast<int>(std::ranges::min_element(price) - price.begin());
+      if (!(price[best] < price[by[own]] - kGain)) continue;
+      by[own] = best;
+      for (const int l : of_region[own]) {
+        const int one = region[links_[l].one], next = one == own ? region[links_[l].other] : one;
+        if (!std::exchange(waits[next], 1)) queue.push_back(next);
       }
     }
-    std::vector<int> by(count, 0);
-    std::vector<double> gain(count, 0.0);
-    for (int c = 0; c < count; ++c) {
-      for (int r = 1; r < k_; ++r) {
-        if (-change[c * k_ + r] > gain[c] + kGain) gain[c] = -change[c * k_ + r], by[c] = r;
-      }
-    }
-    // The best of its neighbours, the first of equals.
-    const auto wins = [&](int c) {
-      return by[c] != 0 && std::ranges::none_of(beside[c], [&](int other) {
-               return gain[other] > gain[c] || (gain[other] == gain[c] && other < c);
-             });
-    };
-    std::vector<char> is_turned(count, 0);
-    for (int c = 0; c < count; ++c) is_turned[c] = wins(c);
-    for (int p = 0; p < count_; ++p) {
-      if (is_turned[region[p]]) s[p] = reduced(s[p] + by[region[p]]);
-    }
-    return std::ranges::count(is_turned, 1) > 0;
+    for (int p = 0; p < count_; ++p) s[p] = reduced(s[p] + by[region[p]]);
+    return std::ranges::any_of(by, [](int r) { return r != 0; });
   }
 
   int k_, count_;
