@@ -5,8 +5,7 @@ Registration loads neither NumPy nor the native core, so that the panel can say 
 import what needs these inside their functions.
 """
 
-from . import native, preferences
-from .command_line import registration
+from . import headless, native, preferences
 from .interface import map_panel, menus, panel, words
 from .operators import (
     bake,
@@ -58,7 +57,7 @@ MODULES = (
     map_panel,
     menus,
     panel,
-    registration,
+    headless,
 )
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The dials: what a map is asked to be. Objects store them; operators and the headless command have the same."""
+"""The dials: what a map is asked to be. Objects store them; operators have the same."""
 
 import math
 

@@ -25,7 +25,7 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
     """One object: its maps as written, the options with which they were, and the report of each part."""
     solved = made.solved
     given = [(one.component.surface, one.map, one.skipped, one.component.note) for one in made.parts]
-    about = holomorph.report.parts_report(given, solved.left_out, _repairs(solved), made.options.arrangement)
+    about = holomorph.report.parts_report(given, solved.surface.refused, _repairs(solved), made.options.arrangement)
     dials = asdict(made.options)
     asked = dials.pop("tiling")
     del asked["allowed"], asked["marked"]  # a vertex group and the marks of the object say them
@@ -199,18 +199,6 @@ def _of_all(names, what):
     return f"{names[0]}{more}: {what}" if names[0] else what
 
 
-def together(outcomes):
-    """One `Outcome` of all."""
-    whole = Outcome()
-    for one in outcomes:
-        whole.done += one.done
-        whole.problems += one.problems
-        whole.notes += one.notes
-        whole.entries += one.entries
-        whole.forms = max(whole.forms, one.forms)
-    return whole
-
-
 def _problems(obj, made):
     """What was not done, or not as it was chosen; the parts that are not surfaces. One sentence for each reason."""
     told = {}
@@ -225,7 +213,7 @@ def _problems(obj, made):
         words = (what, "on" if which else "", which) if what == UNUSED else (which, what)
         yield f"{obj.name}: {' '.join(filter(None, words))}: {why}"
     left = {}
-    for refused in made.solved.left_out:
+    for refused in made.solved.surface.refused:
         left.setdefault(native.sentence(refused.reason), []).append(len(refused.faces))
     yield from (f"{obj.name}: {_faces(sum(counts))} left out: {reason}" for reason, counts in left.items())
 

@@ -8,7 +8,6 @@ from .core import arrays
 from .core.array_types import Reals
 from .core.value import quoted
 from .forms.form_structure import FormStructure
-from .mesh import intake
 from .mesh.surface import Surface
 
 SQUARES = ((0.96, 0.94, 0.91), (0.84, 0.43, 0.20))  # the two colours of a checker
@@ -39,7 +38,7 @@ def upright(points: Reals, up: str) -> Reals:
     """(..., 3) points with the axis `up`, "Y" or "Z", as third one."""
     if up not in ("Y", "Z"):
         raise ValueError(f'up is {quoted(up)}; "Y" or "Z" is needed')
-    return intake.upright(points, up)
+    return points if up == "Z" else points[..., [0, 2, 1]] * np.array([1, -1, 1])
 
 
 def density_decades(surface: Surface, uv: Reals) -> Reals:
