@@ -9,7 +9,6 @@ from . import headless, native, preferences
 from .interface import map_panel, menus, panel, words
 from .operators import (
     bake,
-    compare,
     dials,
     drag,
     elements,
@@ -49,7 +48,6 @@ MODULES = (
     relief,
     symmetric,
     texel_operators,
-    compare,
     bake,
     overlay,
     tools,
