@@ -142,8 +142,6 @@ def _options(dials, target, own):
         0 if dials.main == SEAMLESS else dials.forms,
         dials.density,
         dials.rotation,
-        tuple(dials.amounts),
-        tuple(dials.phases),
         dials.margin,
         dials.main,
         tiling=tiling,

@@ -434,8 +434,8 @@ def test_shifted_pieces_need_half_turns(turns):
         assert len(things_of(obj, "geometry").data.vertices) > 50
         return
     before = everything(obj)
-    with pytest.raises(RuntimeError, match="a map with quarter turns has as many rows as columns, not shifted"):
-        bpy.ops.object.holomorphic_geometry(piece="BRICK", columns=2, arrangement="SHIFTED", rows=2)
+    with pytest.raises(RuntimeError, match="a map with quarter turns has as many rows as columns, with"):
+        bpy.ops.object.holomorphic_geometry(piece="BRICK", columns=2, rows=3)
     assert everything(obj) == before
     assert bpy.ops.object.holomorphic_geometry(piece="BRICK", columns=2) == {"FINISHED"}
 
