@@ -269,19 +269,16 @@ def test_package_imports_go_down():
 
 
 def test_addon_rooms_are_listed():
-    assert {addon_room(path) for path in python_files(ADDON) if "presets" not in path.parts} == set(ADDON_BELOW)
+    assert {addon_room(path) for path in python_files(ADDON)} == set(ADDON_BELOW)
 
 
 def test_addon_imports_go_down():
     wrong = []
     for path in set(python_files(ADDON)) - ADDON_TOP:
-        if "presets" not in path.parts:
-            allowed = {addon_room(path), *rooms_below(addon_room(path), ADDON_BELOW)}
-            targets = addon_imports(path)
-            wrong += [
-                f"{identify(path)} imports {identify(name)}" for name in targets if addon_room(name) not in allowed
-            ]
-            wrong += [f"{identify(path)} imports {identify(name)}" for name in ADDON_TOP & set(targets)]
+        allowed = {addon_room(path), *rooms_below(addon_room(path), ADDON_BELOW)}
+        targets = addon_imports(path)
+        wrong += [f"{identify(path)} imports {identify(name)}" for name in targets if addon_room(name) not in allowed]
+        wrong += [f"{identify(path)} imports {identify(name)}" for name in ADDON_TOP & set(targets)]
     assert not wrong
 
 
