@@ -162,11 +162,6 @@ def adjust_texture(material, texture, repeats, unit_length):
         nodes[PREVIEW_NODE].image = textures.preview_image(texture, repeats)
 
 
-def shown_map(material):
-    """The name of the UV map that one of our materials shows, "" where there is none, as of an attribute."""
-    return getattr(material.node_tree.nodes.get(MAP_NODE), "uv_map", "")
-
-
 ASSET = "holomorph_asset"  # custom property that tells them: which texture
 ASSET_UNIT = 0.25  # length of a UV unit that reliefs are made for; a value in the nodes, "Relief", has them
 ASSET_TAG = "Seamless"

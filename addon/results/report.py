@@ -118,7 +118,6 @@ class Outcome:
     problems: list = field(default_factory=list)
     notes: list = field(default_factory=list)
     entries: list = field(default_factory=list)
-    forms: int = 0
     looks: dict = field(default_factory=dict)  # `material.Look`s for all objects, by whether of tilings, and turned
     coverings: dict = field(default_factory=dict)  # materials by what they show
     objects: list = field(default_factory=list)  # that these are for
@@ -148,7 +147,6 @@ class Outcome:
         """Adds an object that got its maps."""
         self.done.append(obj.name)
         self.entries.append(entry)
-        self.forms = max(self.forms, made.solved.form_count)
         self.judge(obj, made, entry)
         self.problems += _problems(obj, made)
         if target.polygons.faces is None:

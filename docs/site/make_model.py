@@ -32,7 +32,7 @@ def build_plain(nodes, material, shown):
     shader = next(node for node in own if node.type == "BSDF_PRINCIPLED")
     tree = nodes.Tree.of(material)
     picture = tree.node("ShaderNodeTexImage", -480, 200, image=image)
-    tree.link(tree.map_vector(nodes.shown_map(shown), is_attribute=False), picture.inputs["Vector"])
+    tree.link(tree.map_vector(own[nodes.MAP_NODE].uv_map, is_attribute=False), picture.inputs["Vector"])
     tree.link(picture.outputs[0], tree.shader(shader.inputs["Roughness"].default_value).inputs["Base Color"])
 
 
