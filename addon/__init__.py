@@ -5,12 +5,10 @@ Registration loads neither NumPy nor the native core, so that the panel can say 
 import what needs these inside their functions.
 """
 
-from . import native, preferences
-from .command_line import registration
+from . import headless, native, preferences
 from .interface import map_panel, menus, panel, words
 from .operators import (
     bake,
-    compare,
     dials,
     drag,
     elements,
@@ -50,7 +48,6 @@ MODULES = (
     relief,
     symmetric,
     texel_operators,
-    compare,
     bake,
     overlay,
     tools,
@@ -58,7 +55,7 @@ MODULES = (
     map_panel,
     menus,
     panel,
-    registration,
+    headless,
 )
 
 

@@ -8,6 +8,8 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 
+from .native import holomorph
+
 UV_MAP_LIMIT = 8  # Blender's own: the ninth `uv_layers.new` returns None
 
 # Attributes by their types: the name, type and number of an element's values.
@@ -184,9 +186,19 @@ def is_there(operator):
     return True
 
 
-def forward_axis(up):
-    """The forward axis of an OBJ file with this axis upwards, by the name that its importer takes."""
-    return "NEGATIVE_Z" if up == "Y" else "Y"
+OPENERS = {  # of these operators, beside those of the package's `IMPORTERS`, a version of Blender has one or more
+    ".blend": ("wm.open_mainfile",),
+    ".obj": ("wm.obj_import",),
+    ".ply": ("wm.ply_import", "import_mesh.ply"),
+    ".stl": ("wm.stl_import", "import_mesh.stl"),
+}
+
+
+def openers():
+    """By the suffix of a file, the operator that opens it, where Blender has one."""
+    known = holomorph.files.formats.IMPORTERS | OPENERS
+    found = {suffix: operator(names) for suffix, names in known.items()}
+    return {suffix: one for suffix, one in found.items() if is_there(one)}
 
 
 def add_socket(tree, name, kind, is_output=False):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finds the native package ``holomorph``, or says in one sentence what is missing.
 
-It is installed as a wheel (an extension, or pip), or lies in a folder that `headless` knows: in the zip for Blender
+It is installed as a wheel (an extension, or pip), or lies in a folder that `folders` knows: in the zip for Blender
 before 4.2, or in a checkout. Neither NumPy nor ``holomorph`` is imported at registration: the panel must draw without
 them.
 """
@@ -78,10 +78,10 @@ def _find():
 def _beside():
     """The package in a folder; None in an extension, which has it as a wheel."""
     try:
-        from . import headless
+        from . import folders
     except ImportError:
         return None
-    return headless.find(NAME, python_tag())
+    return folders.find(NAME, python_tag())
 
 
 @functools.lru_cache(maxsize=1)

@@ -17,7 +17,7 @@ class HOLOMORPH_preferences(bpy.types.AddonPreferences):
 
     research: BoolProperty(
         name="Research",
-        description="Show the dials of single forms, of their shares and of the solver in the sidebar",
+        description="Show the dials of single forms and of the solver in the sidebar",
         default=False,
     )
 

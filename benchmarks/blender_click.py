@@ -31,9 +31,8 @@ import meshes
 import other_unwraps
 
 import addon
-from addon import native
-from addon.command_line import exchange
-from addon.scene import mesh_io
+from addon import compatibility, native
+from addon.scene import gathering, mesh_io
 from addon.solving import jobs
 
 LARGEST_STRETCH = 10.0
@@ -219,7 +218,12 @@ def objects_of(path):
             bpy.ops.object.mode_set(mode="OBJECT")
         return [obj for obj in bpy.context.view_layer.objects if obj.type == "MESH"]
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    return exchange.read(path, "Z") if path.suffix.lower() in exchange.SUFFIXES else [mesh_of(path)]
+    if path.suffix.lower() not in (".obj", *native.load().files.formats.IMPORTERS):
+        return [mesh_of(path)]
+    with compatibility.old_numpy_names():
+        compatibility.openers()[path.suffix.lower()](filepath=str(path))
+    meshes = [obj for obj in bpy.context.view_layer.objects if obj.type == "MESH" and not gathering.is_helper(obj)]
+    return sorted(meshes, key=lambda obj: obj.name)
 
 
 def mesh_of(path):

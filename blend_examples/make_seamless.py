@@ -16,10 +16,11 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "docs"))
+import preview_scene
 from modeling import subdivide
 
 import addon
-from addon.command_line import preview_scene
 from addon.scene import mesh_io
 
 HERE = Path(__file__).resolve().parent

@@ -17,6 +17,7 @@ from types import SimpleNamespace
 
 import bpy
 import numpy as np
+import preview_scene
 
 PACKAGE = "holomorph_pictures"
 SAMPLES = 16
@@ -177,7 +178,7 @@ def main():
         uv = uv.astype(np.float64) * math.sqrt(median / median_density(points, polygons, uv.astype(np.float64)))
         found[kind] = figures(points, polygons, uv)
         show(obj, polygons, uv)
-        module("command_line.preview_scene").render([obj], f"{folder}/{name}-{kind}.png", RESOLUTION, SAMPLES)
+        preview_scene.render([obj], f"{folder}/{name}-{kind}.png", RESOLUTION, SAMPLES)
     print(row(name, json.loads(obj[module("results.report").PROPERTY])["components"], found))
     print("dial:", name, ", ".join(f"{found[kind][0]:.1f} at {evenness}" for kind, evenness in DIAL.items()))
 

@@ -12,10 +12,12 @@ from pathlib import Path
 
 import bpy
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import preview_scene
+
 import addon
 from addon import compatibility
-from addon.command_line import preview_scene
 from addon.results import tags
 from addon.things import geometry, tree
 

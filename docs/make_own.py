@@ -14,10 +14,12 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import preview_scene
+
 import addon
 from addon import native
-from addon.command_line import preview_scene
 from addon.materials.periodic import mix, smoothstep
 from addon.scene import gathering, image_io, mesh_io, uv_maps
 

@@ -14,6 +14,9 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import preview_scene
+
 PACKAGE = "holomorph_pictures"
 SAMPLES, RESOLUTION = 32, 480
 LEAST, MOST = 0.3, 1.3  # of the median size: smaller scales, near poles, are left out, and none is larger
@@ -124,7 +127,7 @@ def main():
     mesh.polygons.foreach_set("use_smooth", np.full(len(mesh.polygons), kind != "bricks"))
     things = coloured(bpy.data.objects.new(kind, mesh), COLOURS[kind])
     shown = [things] if kind == "wires" else [coloured(body, GROUND), things]
-    module("command_line.preview_scene").render(shown, png, RESOLUTION, SAMPLES)
+    preview_scene.render(shown, png, RESOLUTION, SAMPLES)
 
 
 main()

@@ -22,7 +22,7 @@ PLATFORMS = {
     "_aarch64": "linux-arm64",
 }
 LEGACY = ("linux-x64", "cp311")  # Debian's Blender 3.4 and its Python
-LEGACY_ONLY = "headless.py"  # imports packages from folders; an extension has wheels and a command
+LEGACY_ONLY = "folders.py"  # imports packages from folders; an extension has wheels
 # The folder in all zips. Blender 4.2 and later take the files out of it; an older one that is given their zip makes an
 # add-on of it, which says which zip is right. Not "holomorph": such a Blender puts the folder's parent on the import
 # path, where it would hide the package of that name.

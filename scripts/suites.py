@@ -204,7 +204,7 @@ SUITES = {
     "window-new": window_in("window-new", "trixie", "4.3", python="3.13"),
     "window-sid": window_in("window-sid", "sid", "5.2", compiled_for="3.14", times=2),
     "site": Suite(
-        "scripts/site, and tests/site: its pages in Chromium, the gallery, plots by PyVista, a notebook.",
+        "scripts/site, and tests/site: its pages in Chromium, the gallery, the lines for PyVista, a notebook.",
         [["scripts/site"], pytest("site", "tests/site", venv="site-test-cp311")],
         environment="make_site_venv; make_site_test_venv",
         blender="needed",

@@ -9,7 +9,7 @@ from ..operators.dials import HOLOMORPH_OT_quarter
 from ..operators.dials_view import dial, draw_texture, row
 from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_stop, HOLOMORPH_OT_tile
 from ..operators.mixins import CONVERT, CONVERTIBLE, WorkOperator
-from ..operators.properties import FORMS, UNLINED
+from ..operators.properties import UNLINED
 from ..operators.symmetric import HOLOMORPH_OT_make_symmetric
 from ..overlays import overlay
 from ..scene import stored_dials
@@ -224,11 +224,6 @@ class ResearchPanel:
             dial(column, dials, name)
         for name in ("cut_at_seams", "shape"):
             row(column, "").prop(dials, name)
-        forms = _found(_report(obj)).forms
-        for index in range(min(forms, FORMS) if forms > 1 else 0):  # a single form has no share
-            made = row(column, f"Form {index + 1}")
-            made.prop(dials, "amounts", index=index, text="")
-            made.prop(dials, "phases", index=index, text="")
 
 
 def shown(dials):

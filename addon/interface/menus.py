@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pie menu, the keys, and the presets of the dials.
 
-Shift U is for the pie menu, Ctrl Shift U for the button: Preferences, Keymap, has both. A preset is a file that sets
-dials of the active object: some come with the add-on, further ones are the user's.
+Shift U is for the pie menu, Ctrl Shift U for the button: Preferences, Keymap, has both. A preset sets dials of the
+active object: some come with the add-on, further ones are files of the user's.
 """
 
 from pathlib import Path
@@ -10,7 +10,7 @@ from pathlib import Path
 import bpy
 from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
-from bpy.props import StringProperty
+from bpy.props import EnumProperty, StringProperty
 
 from ..operators.drag import HOLOMORPH_OT_drag_poles
 from ..operators.elements import HOLOMORPH_OT_select_stretched
@@ -23,7 +23,19 @@ from ..scene import stored_dials
 
 KEY = "U"
 KEYMAPS = ("Object Mode", "EMPTY"), ("Mesh", "EMPTY"), ("UV Editor", "EMPTY")  # name, kind of space
-FOLDER = Path(__file__).parents[1] / "presets" / "holomorph"
+FOLDER = "holomorph"  # of the user's own presets, in those of Blender
+USUAL = {"tiles": 100, "size": 0.0, "lattice": "square", "direction": "UPRIGHT", "boundary": "automatic"}
+USUAL |= {"checker": True, "repeats": 1}
+PRESETS = {  # beside what is usual
+    "Automatic": {"texture": "CHECKER", "tiles": 0, "lattice": "automatic"},
+    "Bricks": {"texture": "BRICKS", "repeats": 2},
+    "Cloth": {"texture": "WEAVE", "repeats": 2},
+    "Hexagons": {"texture": "HEXAGONS", "boundary": "free"},
+    "Numbered Check": {"texture": "NUMBERED", "tiles": 0},
+    "Planks": {"texture": "PLANKS", "tiles": 60, "direction": "Z", "repeats": 3},
+    "Scales": {"texture": "SCALES", "boundary": "free"},
+    "Wood": {"texture": "PLANKS", "tiles": 60, "direction": "Z"},
+}
 OF_ONE_OBJECT = {"source", "pole_group"}  # dials that name what another object may lack
 
 _entries = []  # (keymap, its item)
@@ -31,15 +43,21 @@ _entries = []  # (keymap, its item)
 
 class HOLOMORPH_PT_presets(PresetPanel, bpy.types.Panel):
     bl_label = "Presets"
-    preset_subdir = FOLDER.name  # of the user's own, in Blender's folders
+    preset_subdir = FOLDER
     preset_operator = "uv.holomorphic_preset"
     preset_add_operator = "uv.holomorphic_preset_add"
 
     def draw(self, _context):
         self.layout.emboss, self.layout.operator_context = "PULLDOWN_MENU", "EXEC_DEFAULT"
-        own = bpy.utils.preset_paths(self.preset_subdir)
-        for folders, add in (([str(FOLDER)], None), (own, self.preset_add_operator)):
-            self.path_menu(folders, self.preset_operator, filter_ext=lambda end: end == ".py", add_operator=add)
+        column = self.layout.column(align=True)
+        for name in PRESETS:
+            column.operator(self.preset_operator, text=name, translate=False).preset = name
+        self.path_menu(
+            bpy.utils.preset_paths(self.preset_subdir),
+            self.preset_operator,
+            filter_ext=lambda end: end == ".py",
+            add_operator=self.preset_add_operator,
+        )
 
 
 class HOLOMORPH_OT_preset_add(AddPresetBase, bpy.types.Operator):
@@ -59,11 +77,15 @@ class HOLOMORPH_OT_preset(OnMeshes, bpy.types.Operator):
     bl_idname = HOLOMORPH_PT_presets.preset_operator
     bl_label = "Preset"
     bl_options = {"REGISTER", "UNDO", "INTERNAL"}
-    filepath: StringProperty(subtype="FILE_PATH", options={"HIDDEN", "SKIP_SAVE"})
+    preset: EnumProperty(items=[(name, name, "") for name in PRESETS], options={"HIDDEN", "SKIP_SAVE"})
+    filepath: StringProperty(subtype="FILE_PATH", options={"HIDDEN", "SKIP_SAVE"})  # a file's, in place of ours
 
     def execute(self, context):
-        with stored_dials.quietly():
-            bpy.utils.execfile(self.filepath)
+        if self.filepath:
+            with stored_dials.quietly():
+                bpy.utils.execfile(self.filepath)
+        else:
+            stored_dials.write(context.active_object, USUAL | PRESETS[self.preset])
         return press(context.active_object) - {"RUNNING_MODAL"} or {"FINISHED"}
 
 
@@ -92,7 +114,7 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
 def register():
     _register_classes()
     if not bpy.app.background:  # without a folder for the user's own, Blender says that paths are missing
-        bpy.utils.user_resource("SCRIPTS", path=str(Path("presets", FOLDER.name)), create=True)
+        bpy.utils.user_resource("SCRIPTS", path=str(Path("presets", FOLDER)), create=True)
     keys = bpy.context.window_manager.keyconfigs.addon
     if keys is None:  # without a window
         return

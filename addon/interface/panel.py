@@ -6,7 +6,6 @@ import bpy
 from .. import native
 from ..operators import (
     bake,
-    compare,
     elements,
     geometry,
     lod,
@@ -122,10 +121,6 @@ class _ToolsPanel(_Panel):
         column.operator(tools.HOLOMORPH_OT_restore_materials.bl_idname)
         column.operator(tools.HOLOMORPH_OT_remove_maps.bl_idname)
         column.operator(tools.HOLOMORPH_OT_assets.bl_idname)
-        if self.bl_space_type == "VIEW_3D":
-            column = self.layout.column(align=True)
-            column.operator(compare.HOLOMORPH_OT_compare.bl_idname)
-            column.operator(compare.HOLOMORPH_OT_carry.bl_idname)
 
 
 def _draw_menu_entry(self, _context):

@@ -26,7 +26,6 @@ class Presentation:
 
     side_by_side: bool = False  # in a row along X, not in the object's place
     hidden: bool = False  # in the view layer and for renders
-    finest: bool = False  # whether there is a copy of the object, too: its level 0
 
 
 def write(step, obj, data, work, presentation=Presentation()):
@@ -38,8 +37,8 @@ def write(step, obj, data, work, presentation=Presentation()):
         _level_object(obj, data, level, work.names, f"{name}_LOD{number}")
         for number, level in enumerate(work.levels, 1)
     ]
-    # An object that is called so is level 0 itself.
-    copies = [_copy(obj, obj.data.copy(), name + FINEST)] if presentation.finest and name == obj.name else []
+    # A copy of the object is level 0; one that is called so is it itself.
+    copies = [_copy(obj, obj.data.copy(), name + FINEST)] if name == obj.name else []
     made = copies + levels
     for level_object in made:
         collection.objects.link(level_object)

@@ -21,14 +21,10 @@ class LevelOptions:
 
     levels: int = 4
     ratio: float = 0.25  # triangles of a level over those of the one before
-    coarsest: int = 0  # triangles of the last level; 0: the ratio decides
 
     def counts(self, triangles):
         """Numbers of triangles, finest level first."""
-        ratio = self.ratio
-        if self.coarsest:
-            ratio = min(1.0, self.coarsest / triangles) ** (1 / self.levels)
-        return [max(1, round(triangles * ratio ** (k + 1))) for k in range(self.levels)]
+        return [max(1, round(triangles * self.ratio ** (k + 1))) for k in range(self.levels)]
 
 
 @dataclass

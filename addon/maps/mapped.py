@@ -58,8 +58,6 @@ class MapOptions:
     forms: int = 8  # basis forms that get a map of their own, at most
     density: float = 1.0  # factor of UV lengths, about the middle of the UV square
     rotation: float = 0.0  # radians, counter-clockwise, of every part
-    amounts: tuple = ()  # factor of each form's share in the main map; none means 1
-    phases: tuple = ()  # radians, phase of each form's share in the main map
     margin: float = 0.02  # least distance between parts, in sides of the UV square
     main: str = AUTOMATIC  # what the main map is
     per_length: float = 0.0  # UV length for a length on the surface, at density 1; 0 fills the UV square
@@ -68,9 +66,7 @@ class MapOptions:
     @property
     def package_main(self):
         """The main map that the package is asked for: another than "balanced" where nothing else is chosen."""
-        is_mixed = any(amount != 1 for amount in self.amounts) or any(phase != 0 for phase in self.phases)
-        is_plain = self.density == 1 and not is_mixed
-        return MAINS.get(self.main, "balanced") if is_plain or self.main != AUTOMATIC else "balanced"
+        return MAINS.get(self.main, "balanced") if self.density == 1 or self.main != AUTOMATIC else "balanced"
 
     @cached_property
     def arrangement(self):
@@ -244,7 +240,7 @@ def _drags(part, dragged):
 
 def _asked(solved, options):
     """What decides how the parts of a solve are mapped, before they are laid out."""
-    return solved.number, options.package_main, options.tiling.made, options.amounts, options.phases
+    return solved.number, options.package_main, options.tiling.made
 
 
 def _object(solved, options, parts, size):
@@ -290,8 +286,6 @@ def _requests(components, options):
         marked=None if wanted.marked is None else np.frombuffer(wanted.marked, np.int64).reshape(-1, 2),
         direction=wanted.direction,
         evenness=wanted.evenness,
-        amounts=options.amounts,
-        phases=options.phases,
         options={name: getattr(wanted, name) for name in ("lattice", "boundary", "turns", "lines")}
         | {"turn": wanted.turn or None},
     )

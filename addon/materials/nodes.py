@@ -162,31 +162,6 @@ def adjust_texture(material, texture, repeats, unit_length):
         nodes[PREVIEW_NODE].image = textures.preview_image(texture, repeats)
 
 
-def shown_map(material):
-    """The name of the UV map that one of our materials shows, "" where there is none, as of an attribute."""
-    return getattr(material.node_tree.nodes.get(MAP_NODE), "uv_map", "")
-
-
-def build_plain(material, shown):
-    """The image that another of our materials has for views without shading, over the whole UV square."""
-    nodes = shown.node_tree.nodes
-    image = next(nodes[name].image for name in (PREVIEW_NODE, IMAGE_NODE) if name in nodes)
-    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
-    tree = Tree.of(material)
-    picture = tree.node("ShaderNodeTexImage", -480, 200, image=image)
-    vector = tree.map_vector(shown_map(shown), is_attribute=False)
-    if HEIGHT_NODE in nodes:  # an image of the user's
-        places = tree.node("ShaderNodeMapping", -720, 100)
-        along, height = (nodes[name].outputs[0].default_value for name in (REPEATS_NODE, HEIGHT_NODE))
-        places.inputs["Scale"].default_value = (along, along / height, 1)
-        if CENTRE_NODE in nodes:
-            places.inputs["Location"].default_value = nodes[CENTRE_NODE].inputs[1].default_value
-        tree.link(vector, places.inputs["Vector"])
-        vector = places.outputs[0]
-    tree.link(vector, picture.inputs["Vector"])
-    tree.link(picture.outputs[0], tree.shader(shader.inputs["Roughness"].default_value).inputs["Base Color"])
-
-
 ASSET = "holomorph_asset"  # custom property that tells them: which texture
 ASSET_UNIT = 0.25  # length of a UV unit that reliefs are made for; a value in the nodes, "Relief", has them
 ASSET_TAG = "Seamless"

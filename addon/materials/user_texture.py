@@ -50,7 +50,7 @@ class Own:
 
 
 def chosen(properties):
-    """The `Own` of properties of an operator, or of the headless command; None where the texture is one of ours.
+    """The `Own` of properties of an operator; None where the texture is one of ours.
     @throws ValueError there is none, or it cannot be a texture"""
     kind = properties.texture
     if kind not in (IMAGE, MATERIAL):

@@ -22,11 +22,6 @@ PIECES = items(
     OBJECT="Your own object; a cell is 1 unit wide",
     COLLECTION="Objects of a collection, at random or in turn",
 )
-ROWS = items(
-    AUTOMATIC="As suits the piece",
-    STRAIGHT="One above the other",
-    SHIFTED="Every other row is shifted by half a cell; needs an even number of rows",
-)
 PLACES = items(
     CENTRES="At the centres of the cells",
     CORNERS="At the corners of the cells",
@@ -38,7 +33,6 @@ ABOUT = {
     "piece": "Pieces to put on the surface",
     "columns": "Number of cells across a tile",
     "rows": "Number of rows of cells in a tile; 0 chooses what suits the piece",
-    "arrangement": "Arrangement of the rows",
     "place": "Position of a piece in its cell",
     "source": "Name of the object or collection",
     "direction": "Directions of the lines",
@@ -47,11 +41,6 @@ ABOUT = {
     "simple": "Join only the corners of cells, by straight edges: quads, except at poles, branch points and borders. "
     "Off: cells lie on the surface, with a vertex wherever a side crosses an edge",
 }
-
-
-def _check_rows(are_shifted, count):
-    if are_shifted and count % 2:
-        raise ValueError("shifted rows need an even number of rows per tile")
 
 
 class OnTiling(WorkOperator):
@@ -113,7 +102,6 @@ class HOLOMORPH_OT_geometry(OnTiling, bpy.types.Operator):
     source: StringProperty(name="Object", description=ABOUT["source"], options=ONCE)
     columns: IntProperty(name="Columns", description=ABOUT["columns"], default=4, min=1, soft_max=32, max=1000)
     rows: IntProperty(name="Rows", description=ABOUT["rows"], default=0, min=0, soft_max=32, max=1000)
-    arrangement: EnumProperty(name="Arrangement", description=ABOUT["arrangement"], items=ROWS, default="AUTOMATIC")
     place: EnumProperty(name="Place", description=ABOUT["place"], items=PLACES, default="CENTRES")
 
     def draw_options(self, layout, _obj):
@@ -121,16 +109,15 @@ class HOLOMORPH_OT_geometry(OnTiling, bpy.types.Operator):
         if self.piece in ("OBJECT", "COLLECTION"):
             kind = "objects" if self.piece == "OBJECT" else "collections"
             layout.prop_search(self, "source", bpy.data, kind, text=self.piece.title())
-        for name in ("columns", "rows", "arrangement", "place"):
+        for name in ("columns", "rows", "place"):
             layout.prop(self, name)
 
     def prepare(self, context):
         from ..things import points
 
-        _check_rows(self.arrangement == "SHIFTED", self.rows)
         self._piece = self._chosen(context.view_layer.objects.active)
         super().prepare(context)
-        if not points.is_left_by_turns(self._source[-1], self.columns, self.rows, self.arrangement, self.place):
+        if not points.is_left_by_turns(self._source[-1], self.columns, self.rows, self.place):
             raise ValueError(points.LEFT_BY_TURNS[self._source[-1]])
 
     def _chosen(self, obj):
@@ -151,8 +138,7 @@ class HOLOMORPH_OT_geometry(OnTiling, bpy.types.Operator):
         from ..things import pieces, points
 
         shipped = pieces.PIECES.get(self.piece, pieces.ANY)
-        is_shifted = {"STRAIGHT": False, "SHIFTED": True}.get(self.arrangement, shipped.is_shifted)
-        asked = shipped.height, is_shifted, self.columns, self.rows, self.place, self._source[-1]
+        asked = shipped.height, shipped.is_shifted, self.columns, self.rows, self.place, self._source[-1]
         self._arranged = partial(points.arrangement, *asked)
         return partial(points.found, arranged=self._arranged)
 
@@ -214,7 +200,8 @@ class HOLOMORPH_OT_cells(OnTiling, bpy.types.Operator):
             layout.prop(self, name)
 
     def prepare(self, context):
-        _check_rows(self.shifted, self.rows)
+        if self.shifted and self.rows % 2:
+            raise ValueError("shifted rows need an even number of rows per tile")
         super().prepare(context)
 
     def find(self):

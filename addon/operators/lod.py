@@ -9,11 +9,8 @@ from .mixins import WorkOperator
 ABOUT = {
     "levels": "Number of levels",
     "ratio": "Triangles of each level, as a share of the level before",
-    "coarsest": "Triangles of the last level; 0 lets the ratio decide. A surface with handles keeps the few that it "
-    "needs",
     "side_by_side": "Place the levels in a row along X beside the object. Off: at its location, as engines expect",
     "hidden": "Hide the levels in the viewport and in renders; the eye icons in the Outliner show them",
-    "finest": "A copy of the object becomes the finest level, Name_LOD0, unless the object itself has that name",
 }
 
 
@@ -27,10 +24,8 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
 
     levels: IntProperty(name="Levels", description=ABOUT["levels"], default=4, min=1, max=12)
     ratio: FloatProperty(name="Ratio", description=ABOUT["ratio"], default=0.25, min=0.01, max=0.95)
-    coarsest: IntProperty(name="Coarsest", description=ABOUT["coarsest"], default=0, min=0)
     side_by_side: BoolProperty(name="Side by Side", description=ABOUT["side_by_side"], default=True)
     hidden: BoolProperty(name="Hidden", description=ABOUT["hidden"], default=True)
-    finest: BoolProperty(name="Copy as LOD0", description=ABOUT["finest"], default=True)
 
     @classmethod
     def why_not(cls, context):
@@ -38,10 +33,8 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
         return "" if obj is not None and obj.type == "MESH" else "Make a mesh object active"
 
     def draw_options(self, layout, _obj):
-        for name in ("levels", "ratio", "coarsest", "side_by_side", "hidden", "finest"):
-            row = layout.row()
-            row.active = name != "ratio" or self.coarsest == 0
-            row.prop(self, name)
+        for name in ("levels", "ratio", "side_by_side", "hidden"):
+            layout.prop(self, name)
 
     def prepare(self, context):
         from ..levels import level_objects
@@ -53,7 +46,7 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
     def make_work(self, progress):
         from ..levels import levels
 
-        return self._source.work(levels.LevelOptions(self.levels, self.ratio, self.coarsest), progress)
+        return self._source.work(levels.LevelOptions(self.levels, self.ratio), progress)
 
     def waiting_faces(self):
         return self._source.target.polygons.face_count
@@ -68,7 +61,7 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
 
         name, presentation = (
             self._source.target.name,
-            level_objects.Presentation(self.side_by_side, self.hidden, self.finest),
+            level_objects.Presentation(self.side_by_side, self.hidden),
         )
         made, told = self._source.write(step, work, presentation, time_has_passed)
         if not made:

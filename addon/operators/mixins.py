@@ -27,6 +27,7 @@ class Explained:
     needs_library = True
     modes = {"OBJECT": "Object Mode"}  # in which it can run, as menus name them; none for any
     left_modes = PAINTING  # further ones: it leaves them and comes back
+    outcome = None  # the `report.Outcome` of the class's last run, for what has no window to show it
 
     @classmethod
     def poll(cls, context):
@@ -58,6 +59,7 @@ class Explained:
 
     def tell(self, outcome):
         """Reports an `report.Outcome`, and gives what the operator returns."""
+        type(self).outcome = outcome
         for window in bpy.context.window_manager.windows:  # sidebars do not see that there is a report, nor editors UVs
             for area in window.screen.areas:
                 area.tag_redraw()

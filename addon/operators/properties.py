@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The dials: what a map is asked to be. Objects store them; operators and the headless command have the same."""
+"""The dials: what a map is asked to be. Objects store them; operators have the same."""
 
 import math
 
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-FORMS = 8  # whose share in the main map can be changed
 HARD_EDGE = math.radians(40)
 EVENNESS = 0.5  # as `mapped.TileOptions`, which needs NumPy
 MOST_POLES = 16
@@ -120,10 +119,6 @@ ABOUT = {
     "closed surface, and may be complex (1+0.5j). Empty: chosen automatically",
     "cut": "Cut the maps along your seams where these make each part a disk; else the report says why not",
     "solver": "How the linear systems are solved",
-    "amounts": "Share of each form in the main map: it moves the places where squares are large and small. At 1, "
-    "their sizes are most even. While you mix forms, Evenness has no effect on parts of more than 20,000 triangles",
-    "phases": "Turn each form's share in the main map: squares turn and change size around its handle. No effect on "
-    "parts with a boundary, which stays straight",
     "squares": "Number of squares, bricks or scales per UV unit on maps with seams, rounded to whole images of the "
     "texture: more are smaller. 0 chooses a number that suits the object's size",
     "shape": "Store the conformal map to the unit sphere (parts without handles and holes) or to the unit disk as a "
@@ -187,12 +182,6 @@ class Dials:
         name="Density", description=ABOUT["density"], default=1.0, min=1e-4, soft_min=0.1, soft_max=10.0
     )
     checker_scale: FloatProperty(name="Squares", description=ABOUT["squares"], default=0.0, min=0.0, soft_max=200.0)
-    amounts: FloatVectorProperty(
-        name="Amount", description=ABOUT["amounts"], size=FORMS, default=(1.0,) * FORMS, soft_min=0.0, soft_max=4.0
-    )
-    phases: FloatVectorProperty(
-        name="Phase", description=ABOUT["phases"], size=FORMS, default=(0.0,) * FORMS, subtype="EULER", unit="ROTATION"
-    )
     solver: EnumProperty(name="Solver", description=ABOUT["solver"], items=SOLVERS, default="auto")
     shape: BoolProperty(name="Store Shape", description=ABOUT["shape"], default=False)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is asked for by dials: of an operator, of an object, or of the headless command; and its run."""
+"""What is asked for by dials: of an operator or an object; and its run."""
 
 import math
 from dataclasses import replace
@@ -46,7 +46,7 @@ class Run:
     """What dials ask for of these `targets.Target`s: a request, the solves, the maps, writing, the report.
     @throws ValueError there is nothing of what is asked for on one of them
 
-    dials : an object with the dials: an operator, the options of the command, or a `Values`
+    dials : an object with the dials: an operator, or a `Values`
     own : the `user_texture.Own` that is their texture, None for one of ours
     is_trial : whether maps that cost an eye no less than those of before are not written
     goes_on : whether tiles keep the size that they have on several objects
@@ -142,8 +142,6 @@ def _options(dials, target, own):
         0 if dials.main == SEAMLESS else dials.forms,
         dials.density,
         dials.rotation,
-        tuple(dials.amounts),
-        tuple(dials.phases),
         dials.margin,
         dials.main,
         tiling=tiling,

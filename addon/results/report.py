@@ -25,7 +25,7 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
     """One object: its maps as written, the options with which they were, and the report of each part."""
     solved = made.solved
     given = [(one.component.surface, one.map, one.skipped, one.component.note) for one in made.parts]
-    about = holomorph.report.parts_report(given, solved.left_out, _repairs(solved), made.options.arrangement)
+    about = holomorph.report.parts_report(given, solved.surface.refused, _repairs(solved), made.options.arrangement)
     dials = asdict(made.options)
     asked = dials.pop("tiling")
     del asked["allowed"], asked["marked"]  # a vertex group and the marks of the object say them
@@ -118,7 +118,6 @@ class Outcome:
     problems: list = field(default_factory=list)
     notes: list = field(default_factory=list)
     entries: list = field(default_factory=list)
-    forms: int = 0
     looks: dict = field(default_factory=dict)  # `material.Look`s for all objects, by whether of tilings, and turned
     coverings: dict = field(default_factory=dict)  # materials by what they show
     objects: list = field(default_factory=list)  # that these are for
@@ -148,7 +147,6 @@ class Outcome:
         """Adds an object that got its maps."""
         self.done.append(obj.name)
         self.entries.append(entry)
-        self.forms = max(self.forms, made.solved.form_count)
         self.judge(obj, made, entry)
         self.problems += _problems(obj, made)
         if target.polygons.faces is None:
@@ -199,18 +197,6 @@ def _of_all(names, what):
     return f"{names[0]}{more}: {what}" if names[0] else what
 
 
-def together(outcomes):
-    """One `Outcome` of all."""
-    whole = Outcome()
-    for one in outcomes:
-        whole.done += one.done
-        whole.problems += one.problems
-        whole.notes += one.notes
-        whole.entries += one.entries
-        whole.forms = max(whole.forms, one.forms)
-    return whole
-
-
 def _problems(obj, made):
     """What was not done, or not as it was chosen; the parts that are not surfaces. One sentence for each reason."""
     told = {}
@@ -225,7 +211,7 @@ def _problems(obj, made):
         words = (what, "on" if which else "", which) if what == UNUSED else (which, what)
         yield f"{obj.name}: {' '.join(filter(None, words))}: {why}"
     left = {}
-    for refused in made.solved.left_out:
+    for refused in made.solved.surface.refused:
         left.setdefault(native.sentence(refused.reason), []).append(len(refused.faces))
     yield from (f"{obj.name}: {_faces(sum(counts))} left out: {reason}" for reason, counts in left.items())
 

@@ -66,8 +66,7 @@ class Found(NamedTuple):
     """What a panel shows of the tilings of a map, beside the dials that asked for them.
 
     points : how many there are; movable : of these those of whole parts, which can be dragged; turns : see `turns`
-    tiles, width : how many, and how wide they are on the surface; 0 without tilings; forms : the largest number of any
-        part
+    tiles, width : how many, and how wide they are on the surface; 0 without tilings
     """
 
     points: int = 0
@@ -75,7 +74,6 @@ class Found(NamedTuple):
     turns: int = 1
     tiles: int = 0
     width: float = 0.0
-    forms: int = 0
 
 
 @functools.lru_cache(maxsize=16)
@@ -84,9 +82,8 @@ def found(stored):
     parts = [part for part in parsed(stored).get("components", []) if "tiling" in part]
     tiles = min(sum(part["tiling"]["tiles"] for part in parts), MOST_TILES)
     area = max(sum(part["area"] for part in parts), 0.0)
-    forms = max((part.get("forms", 0) for part in parsed(stored).get("components", [])), default=0)
     points, movable = (_point_count(found) for found in (tilings(stored), whole_tilings(stored)))
-    return Found(points, movable, turns(stored), round(tiles), math.sqrt(area / tiles) if tiles > 0 else 0.0, forms)
+    return Found(points, movable, turns(stored), round(tiles), math.sqrt(area / tiles) if tiles > 0 else 0.0)
 
 
 def _point_count(found):

@@ -12,13 +12,8 @@ IMPORTER_HELPERS = "glTF_not_exported"  # the collection of the glTF importer
 
 def mesh_objects(context):
     """The mesh objects the operator is about, the active one first."""
-    return active_first(context, candidates(context))
-
-
-def active_first(context, objects):
-    """These objects as a list, the active one first."""
     active = context.view_layer.objects.active
-    return sorted(objects, key=lambda o: o != active)
+    return sorted(candidates(context), key=lambda o: o != active)
 
 
 def candidates(context):

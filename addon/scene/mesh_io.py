@@ -29,7 +29,6 @@ class Polygons:
     face_offsets: np.ndarray  # (#F+1,) int32
     loops: np.ndarray | None
     faces: np.ndarray | None = None  # (#F,) which polygons of the mesh they are, None for all
-    left_out: tuple = ()  # faces of a file that are not among them, as the package's `Refused`
 
     @property
     def face_count(self):

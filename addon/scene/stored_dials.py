@@ -20,7 +20,7 @@ def names():
 
 
 def read(owner):
-    """{name: value} of the dials that an owner has: an operator, options of a command, or the group of an object."""
+    """{name: value} of the dials that an owner has: an operator, or the group of an object."""
     return {name: _plain(getattr(owner, name)) for name in names() if hasattr(owner, name)}
 
 
@@ -53,6 +53,15 @@ def beside(given, values):
     """Those of these dials that are neither given nor ruled out by one that is."""
     ruled_out = {*given, *(RULED_OUT[name] for name in given if name in RULED_OUT)}
     return {name: value for name, value in values.items() if name not in ruled_out}
+
+
+def alike(objects, given):
+    """The objects in lists of those that store the same dials beside given ones; a mesh has those of its first."""
+    dials, groups = {}, {}
+    for obj in objects:
+        own = dials.setdefault(obj.data, beside(given, chosen(obj)))
+        groups.setdefault(repr(own), []).append(obj)
+    return list(groups.values())
 
 
 def choose(obj, values):

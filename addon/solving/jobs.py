@@ -87,11 +87,6 @@ class SolvedObject:
         """The components that have maps."""
         return [c for c in self.components if c.structure is not None]
 
-    @property
-    def left_out(self):
-        """The faces that have no place on the surface, `Refused` by reasons."""
-        return (*self.polygons.left_out, *self.surface.refused)
-
     @cached_property
     def form_count(self):
         """The largest number of forms among the components."""

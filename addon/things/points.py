@@ -37,16 +37,16 @@ class Arrangement:
 
 
 LEFT_BY_TURNS = {
-    4: "a map with quarter turns has as many rows as columns, not shifted, with places at centres or corners",
-    6: "a map with sixth turns has as many rows as columns, not shifted, with places at corners",
+    4: "a map with quarter turns has as many rows as columns, with places at centres or corners",
+    6: "a map with sixth turns has as many rows as columns, with places at corners",
 }
 
 
-def is_left_by_turns(turns, columns, rows, rows_lie, place):
+def is_left_by_turns(turns, columns, rows, place):
     """Whether places can lie so on a map that turns."""
     if turns <= 2:
         return True
-    return rows in (0, columns) and rows_lie != "SHIFTED" and place in ("CENTRES", "CORNERS")[turns == 6 :]
+    return rows in (0, columns) and place in ("CENTRES", "CORNERS")[turns == 6 :]
 
 
 def arrangement(height, is_shifted, columns, rows, place, turns, lattice):

@@ -33,7 +33,6 @@ myst_heading_anchors = 4
 
 default_role = "code"
 autodoc_member_order = "bysource"
-autodoc_mock_imports = ["pyvista"]  # large, and only named in signatures
 maximum_signature_line_length = 90
 add_module_names = False
 

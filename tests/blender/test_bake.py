@@ -5,10 +5,9 @@ import json
 import bpy
 import numpy as np
 import pytest
-from baked_images import Points, covering, grown, islands, pixels, sampled, triangles
-from exchange_formats import may_write_gltf
+from baked_images import Points, covering, grown, islands, pixels, sampled
 from file_state import differences, file_state
-from headless_runs import headless, refusal
+from headless_runs import headless, refusal, sets
 from loaded_addon import module
 from scenes import grid_arrays, mesh_object, select, torus, uv_maps
 
@@ -414,70 +413,25 @@ def test_only_in_object_mode():
         run()
 
 
-@may_write_gltf
-def test_the_command_bakes_into_a_file(tmp_path):
+def test_the_command_bakes(tmp_path):
     torus("Ring")
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"))
-    out, report = tmp_path / "out.glb", tmp_path / "report.json"
-    wanted = ("--seamless", "--texture", "bricks", "--bake", tmp_path / "images", "--texels", 30)
-    done = headless(*wanted, "--output", out, "--report", report, blend=tmp_path / "in.blend")
+    (tmp_path / "images").mkdir()
+    report = tmp_path / "report.json"
+    pressed = ("--press", "tile", *sets("texture=BRICKS"), "--press", "bake")
+    wanted = sets(f"folder={tmp_path / 'images'}", "texels=30")
+    done = headless(*pressed, *wanted, "--report", report, blend=tmp_path / "in.blend")
     assert done.returncode == 0, done.stderr
     names = {f"Ring_{channel}.png" for channel in ("Colour", "Roughness", "Normal")}
     assert {path.name for path in (tmp_path / "images").iterdir()} == names
     (entry,) = json.loads(report.read_text())["objects"]
     assert entry["baked"]["texels_per_metre"] == pytest.approx(30, rel=0.05)
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    (obj,) = module("command_line.exchange").read(out, "Y")
-    assert len(obj.data.uv_layers) == 2
-    shown = [node.image for node in obj.material_slots[0].material.node_tree.nodes if node.type == "TEX_IMAGE"]
-    assert {tuple(image.size) for image in shown} == {(entry["baked"]["side"],) * 2} and len(shown) >= 3
-    assert not [key for key in obj.material_slots[0].material.keys() if "holomorph" in key]  # noqa: SIM118  no dictionary
 
 
 def test_the_command_refuses_in_one_sentence(tmp_path):
     torus("Ring")
     blend = tmp_path / "in.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(blend))
-    taken = tmp_path / "taken"
-    taken.write_text("")
-    for options, status, sentence in (
-        (("--bake", taken), 2, "is not a folder"),
-        (("--bake", tmp_path / "images", "--texels", "-1"), 2, "cannot be negative"),
-        (("--bake", tmp_path / "images", "--texels", "0.01"), 1, "an image of 1 texel"),
-    ):
-        assert sentence in refusal("--seamless", *options, blend=blend, status=status)
-
-
-def test_a_part_that_unfolds_keeps_its_flat_islands():
-    _, box = scene()
-    select(box)
-    assert run(texels=60.0) == {"FINISHED"}
-    _, number = islands(grown(covering(box, image_of("Box Colour").size[0]) > 0, 1))
-    assert number == 1  # Smart UV Project makes five
-    loops, _ = triangles(box)
-    corners = uv_maps.read_map(box.data, uv_maps.bake_map(box.data)).astype(np.float64)[loops]
-    sides = corners[:, 1:] - corners[:, :1]
-    world = np.array([box.matrix_world @ vertex.co for vertex in box.data.vertices])
-    at = world[[[box.data.loops[loop].vertex_index for loop in three] for three in loops]]
-    length = np.linalg.norm(at[:, 1] - at[:, 0], axis=1)
-    density = np.linalg.norm(sides[:, 0], axis=1) / length
-    assert np.ptp(density) < 1e-3 * density.mean()
-
-
-def spring_arrays(turns=4, around=8):
-    """A tube with open ends that winds up: a projection lays its turns over each other."""
-    count = 24 * turns
-    i, j = np.meshgrid(np.arange(count), np.arange(around), indexing="ij")
-    u, v = 2 * np.pi * i / 24, 2 * np.pi * j / around
-    radius = 1 + 0.15 * np.cos(v)
-    vertices = np.stack([radius * np.cos(u), radius * np.sin(u), 0.15 * np.sin(v) + 0.08 * u], -1).reshape(-1, 3)
-    first = np.arange(count * around).reshape(count, around)
-    beside = np.roll(first, -1, axis=1)
-    return vertices, np.stack([first[:-1], first[1:], beside[1:], beside[:-1]], -1).reshape(-1, 4)
-
-
-def test_the_turns_of_a_spring_lie_beside_each_other():
-    spring = mesh_object("Spring", *spring_arrays())
-    tiled(spring, texture="BRICKS")
-    assert run() == {"FINISHED"}
-    assert covering(spring, image_of("Spring Colour").size[0]).max() == 1
+    assert "an image of 1 texel" in refusal(
+        "--press", "tile", "--press", "bake", *sets("texels=0.01"), blend=blend, status=1
+    )

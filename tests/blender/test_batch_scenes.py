@@ -8,12 +8,12 @@ import sys
 import bpy
 import numpy as np
 import pytest
-from exchange_formats import SCENES
+from exchange_formats import SCENES, write
 from headless_runs import BLENDER
 from loaded_addon import module
 from scenes import mesh_io, native, torus, torus_arrays, uv_maps
 
-compatibility, exchange = module("compatibility"), module("command_line.exchange")
+compatibility = module("compatibility")
 AS_PROGRAM = """#!{python}
 # What a Blender program does with a batch's arguments, by Blender as a Python module.
 import os, runpy, sys, bpy
@@ -63,7 +63,7 @@ def test_a_file_of_another_program_is_read_and_its_map_is_written(suffix, progra
     )
     ring_with_seams()
     path, folder = tmp_path / f"scene{suffix}", tmp_path / "opened"
-    exchange.write(path)
+    write(path)
     folder.mkdir()
     opening = blend.Opening("scene", "key", path, 1, folder, tmp_path, program)
     record, files = opening.run()

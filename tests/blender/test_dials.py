@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from drawn_panel import Drawn
-from headless_runs import headless
+from headless_runs import headless, sets
 from loaded_addon import module
 from scenes import everything, mesh_object, select, sphere_arrays, stored_report, torus, uv
 from scenes import stored_poles as poles
@@ -63,7 +63,7 @@ def test_the_command_stores_what_it_is_asked_for(tmp_path):
     torus()
     source, target = tmp_path / "source.blend", tmp_path / "made.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(source))
-    run = headless("--output", target, "--tiles", "30", "--evenness", "0.75", "--texture", "bricks", blend=source)
+    run = headless("--output", target, *sets("tiles=30", "evenness=0.75", "texture=BRICKS"), blend=source)
     assert run.returncode == 0, run.stderr
     bpy.ops.wm.open_mainfile(filepath=str(target))
     obj = bpy.data.objects["Torus"]
@@ -92,7 +92,7 @@ def test_the_command_starts_with_the_dials_of_each_object(tmp_path):
     second.holomorph_map.texture = alike.holomorph_map.texture = "BRICKS"
     source, report = tmp_path / "source.blend", tmp_path / "report.json"
     bpy.ops.wm.save_as_mainfile(filepath=str(source))
-    run = headless("--evenness", "0.25", "--report", report, blend=source)
+    run = headless(*sets("evenness=0.25"), "--report", report, blend=source)
     assert run.returncode == 0, run.stderr
     made = {one["object"]: one["dials"] for one in json.loads(report.read_text())["objects"]}
     asked = {name: [made[name]["stored"][dial] for dial in ("tiles", "evenness", "texture")] for name in "ABC"}

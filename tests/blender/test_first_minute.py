@@ -186,7 +186,7 @@ def drawn_after_run(obj):
 def test_warnings_of_one_kind_are_one_line():
     parts = [SimpleNamespace(skipped="no room", component=SimpleNamespace(note=""), not_seamless="")] * 239
     left_out = [SimpleNamespace(faces=[1], reason="without area")] * 7
-    made = SimpleNamespace(parts=parts, solved=SimpleNamespace(left_out=left_out))
+    made = SimpleNamespace(parts=parts, solved=SimpleNamespace(surface=SimpleNamespace(refused=left_out)))
     told = list(module("results.report")._problems(SimpleNamespace(name="Kit"), made))
     assert told == ["Kit: 239 parts of 239 skipped: no room", "Kit: 7 faces left out: without area"]
 

@@ -58,10 +58,10 @@ def test_there_is_a_piece_at_every_place(piece):
 
 
 @pytest.mark.parametrize("lattice", ["square", "brick", "hex"])
-@pytest.mark.parametrize("arrangement", ["STRAIGHT", "SHIFTED"])
-def test_the_number_of_places_is_that_of_the_cells(lattice, arrangement):
+@pytest.mark.parametrize("piece", ["STUD", "BRICK"])  # straight, and shifted
+def test_the_number_of_places_is_that_of_the_cells(lattice, piece):
     """On a torus without poles: its area in tiles, times the cells in each."""
-    made = put(tiled(torus(), lattice=lattice), columns=3, rows=4, arrangement=arrangement)
+    made = put(tiled(torus(), lattice=lattice), columns=3, rows=4, piece=piece)
     polygons, uv, name, _ = geometry.source(bpy.data.objects["Torus"])
     starts, following = polygons.face_offsets[:-1], np.arange(len(uv)) + 1
     following[polygons.face_offsets[1:] - 1] = starts
@@ -441,7 +441,6 @@ def test_places_that_are_too_few_are_refused():
         (dict(piece="COLLECTION", source="Missing"), "choose the collection"),
         (dict(piece="COLLECTION", source="Pieces"), "collection Pieces is empty"),
         (dict(piece="OBJECT", source="Torus"), "cannot be put on itself"),
-        (dict(arrangement="SHIFTED", rows=3), "an even number"),
     ],
 )
 def test_pieces_that_are_none_are_refused(options, sentence):

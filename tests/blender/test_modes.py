@@ -50,8 +50,6 @@ OPERATORS = {
     "set": lambda: bpy.ops.uv.holomorphic_texels_set(texels=100),
     "repair": lambda: bpy.ops.mesh.holomorphic_repair(),
     "levels": lambda: bpy.ops.object.holomorphic_levels(levels=1),
-    "carry": lambda: bpy.ops.object.holomorphic_carry(),
-    "compare": lambda: bpy.ops.object.holomorphic_compare(),
 }
 
 

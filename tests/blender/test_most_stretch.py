@@ -1,10 +1,6 @@
 """Islands that are cut open where they would be stretched most."""
 
-import json
-
 import numpy as np
-import pytest
-from headless_runs import headless, refusal, write_obj
 from loaded_addon import module
 from packed import assert_packed
 from scenes import everything, mesh_object, run, select, stored_report
@@ -52,20 +48,3 @@ def test_the_cuts_become_seams():
     tip = int(np.argmax(finger_arrays()[0][:, 2]))
     heights = np.array([v.co.z for v in obj.data.vertices])
     assert len(ends) > 5 and heights[np.unique(ends)].max() > 0.8 * heights[tip]
-
-
-def test_the_command(tmp_path):
-    vertices, faces = finger_arrays()
-    mesh, report = write_obj(tmp_path / "finger.obj", vertices, faces), tmp_path / "report.json"
-    done = headless(mesh, "--main", "islands", "--most-stretch", 2, "--report", report)
-    assert done.returncode == 0, done.stderr
-    (entry,) = json.loads(report.read_text())["objects"]
-    assert entry["components"][0]["main_map"]["size_range"] < 2
-
-
-@pytest.mark.parametrize(
-    ("options", "word"),
-    [(("--most-stretch", 2), "--main islands"), (("--main", "islands", "--most-stretch", 0.5), "above 1")],
-)
-def test_factors_that_cannot_be_are_refused_by_the_command(tmp_path, options, word):
-    assert word in refusal(write_obj(tmp_path / "finger.obj", *finger_arrays()), *options)

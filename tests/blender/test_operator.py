@@ -72,24 +72,6 @@ def test_density_and_rotation_are_applied_to_all_maps():
         assert np.allclose(uv(obj, name) - 0.5, turned, atol=1e-5)
 
 
-def test_dials_start_at_the_balanced_map_and_change_only_the_main_one():
-    obj = frame()
-    run()
-    main, first = uv(obj), uv(obj, "Holomorphic 1")
-    run(amounts=(1,) * 8, phases=(0,) * 8)
-    assert np.array_equal(uv(obj), main)
-    run(amounts=(0.2, *(1,) * 7), phases=(0, 1.0, *(0,) * 6))
-    assert not np.allclose(uv(obj), main, atol=1e-3)
-    assert np.array_equal(uv(obj, "Holomorphic 1"), first)
-    assert fills_the_square(uv(obj))
-
-
-def test_all_dials_at_zero_give_a_point_and_no_crash():
-    obj = torus()
-    assert run(amounts=(0,) * 8) == {"FINISHED"}
-    assert np.all(uv(obj) == 0.5)
-
-
 def test_a_second_run_replaces_and_the_artists_maps_stay():
     obj = torus()
     artist = obj.data.uv_layers.new(name="Artist").name

@@ -1,5 +1,6 @@
 """Registration, and what is said where the native part is missing."""
 
+import signal
 from pathlib import Path
 
 import bpy
@@ -40,7 +41,6 @@ def test_evenness_has_one_default():
     for operator in (bpy.ops.uv.holomorphic_maps, bpy.ops.uv.holomorphic_tile):
         found = operator.get_rna_type().properties["evenness"]
         assert found.default == pytest.approx(default) and found.description  # single precision
-    assert module("command_line.options").parse([]).evenness == default
 
 
 @pytest.fixture
@@ -91,12 +91,15 @@ def test_the_right_zip_is_named_with_the_place_where_it_is(monkeypatch):
 
 def test_the_command_of_an_extension_is_known_where_blender_has_such(capsys):
     """Since 4.2; its exit status is returned, not raised."""
-    registration = module("command_line.registration")
-    assert len(registration._registered) == (bpy.app.version >= (4, 2, 0))
-    assert registration._run(["--bogus"]) == 2
+    headless = module("headless")
+    assert len(headless._commands) == (bpy.app.version >= (4, 2, 0))
+    heard = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    assert headless.main(["--bogus"]) == 2
     assert "--bogus" in capsys.readouterr().err
-    assert registration._run(["--help"]) == 0
-    assert capsys.readouterr().out.startswith("usage: blender [file.blend] --command holomorph ")
+    assert headless.main(["--help"]) == 0
+    assert capsys.readouterr().out.startswith("usage: holomorph ")
+    for number, listener in heard.items():  # a program that ends listens no more
+        signal.signal(number, listener or signal.SIG_DFL)
 
 
 def test_the_sentence_of_a_missing_native_part_names_the_zip(addon, monkeypatch):

@@ -64,7 +64,7 @@ def test_the_ends_of_a_tube_are_straight_and_their_length_is_the_same():
 @pytest.mark.parametrize("name", ["Holomorphic", "Holomorphic 1", "Holomorphic 2", "Holomorphic 3"])
 def test_all_maps_of_a_surface_with_handles_and_holes_have_straight_boundaries(name):
     obj = torus_with_a_hole()
-    assert run(phases=(0.7,) * 8, amounts=(0.5, 2, 1, 1, 1, 1, 1, 1)) == {"FINISHED"}
+    assert run() == {"FINISHED"}
     assert (only_part(obj)["genus"], only_part(obj)["boundary_count"], only_part(obj)["forms"]) == (1, 2, 3)
     (part,) = parts_of(obj)
     assert straightness(part, uv(obj, name)) < FLOAT32
@@ -108,13 +108,13 @@ def test_poles_with_residues_on_a_torus():
 
 def test_a_component_is_reported_as_by_the_package():
     obj = torus_with_a_hole()
-    assert run(density=2.0, amounts=(0.5,) * 8) == {"FINISHED"}
+    assert run(density=2.0) == {"FINISHED"}
     (part,) = parts_of(obj)
     package = module("native").load()
     expected = package.report.part_report(package.form_map(part, package.automatic_structure(part)))
     entry = only_part(obj)
     assert entry.keys() == expected.keys() and entry["main_map"].keys() == expected["main_map"].keys()
-    assert entry["main_map"]["coefficients"] == pytest.approx(0.5 * np.array(expected["main_map"]["coefficients"]))
+    assert entry["main_map"]["coefficients"] == pytest.approx(expected["main_map"]["coefficients"])
     measured = {"timings", "solver", "residuals", "main_map"}
     assert {k: v for k, v in entry.items() if k not in measured} == json.loads(
         json.dumps({k: v for k, v in expected.items() if k not in measured})

@@ -1,4 +1,4 @@
-"""Which formats of exchange each Blender can write."""
+"""Which formats of exchange each Blender can write, and how."""
 
 import bpy
 import pytest
@@ -15,3 +15,13 @@ SCENES = [
     ".fbx",
     pytest.param(".usdc", marks=needs_usd),
 ]
+
+
+def write(path):
+    """The scene as a file, by Blender's own exporter."""
+    exporter, options = {
+        ".glb": (bpy.ops.export_scene.gltf, {"export_cameras": True}),
+        ".fbx": (bpy.ops.export_scene.fbx, {}),
+        ".usdc": (bpy.ops.wm.usd_export, {}),
+    }[path.suffix]
+    exporter(filepath=str(path), **options)

@@ -1,7 +1,5 @@
-"""addon/headless.py in a Blender of its own, and its command in this one."""
+"""addon/headless.py in a Blender of its own, and what it does in this one."""
 
-import contextlib
-import io
 import os
 import subprocess
 import sys
@@ -42,20 +40,28 @@ def headless(*arguments, blend="", seconds=SECONDS):
 
 
 def refusal(*arguments, blend="", status=2):
-    """The sentence with which the command ends, for a mistake in it with status 2, when it is run in this Blender: to
-    start another one takes a second."""
+    """The sentence with which the program ends, for a mistake in the command with status 2, when it is run in this
+    Blender: to start another one takes a second."""
     if blend:
         bpy.ops.wm.open_mainfile(filepath=str(blend))
-    said, told = io.StringIO(), io.StringIO()
-    with contextlib.redirect_stderr(said), contextlib.redirect_stdout(told), pytest.raises(SystemExit) as end:
-        module("command_line.command").main([str(argument) for argument in arguments])
-    (line,) = said.getvalue().splitlines()
-    assert (end.value.code, told.getvalue()) == (status, "") and line.startswith("Holomorph: ")
-    return line
+    program, arguments = module("headless"), [str(argument) for argument in arguments]
+    if status == 2:
+        with pytest.raises((ValueError, OSError)) as refused:
+            program.parse(arguments)
+    else:
+        options = program.parse(arguments)
+        with pytest.raises(RuntimeError) as refused:
+            program.process(options)
+    return str(refused.value)
+
+
+def sets(*pairs):
+    """The arguments that set properties."""
+    return [word for pair in pairs for word in ("--set", pair)]
 
 
 def our_lines(done):
-    return [line for line in done.stderr.splitlines() if line.startswith("Holomorph")]
+    return [line for line in done.stderr.splitlines() if line.startswith("holomorph: ")]
 
 
 def write_obj(path, vertices, faces):

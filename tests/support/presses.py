@@ -6,7 +6,7 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 from loaded_addon import module
-from scenes import mesh_object, select, torus_arrays, two_objects
+from scenes import select, two_objects
 
 IMAGE = 8  # pixels of a side
 
@@ -31,10 +31,6 @@ def islands():
 
 def levels(ratio=0.6):
     return bpy.ops.object.holomorphic_levels(levels=2, ratio=ratio)
-
-
-def carry():
-    return bpy.ops.object.holomorphic_carry(tolerance=100)
 
 
 def stud(**options):
@@ -104,13 +100,6 @@ def with_modifiers():
     select(bpy.data.objects["Torus"], bpy.data.objects["Ball"])
 
 
-def with_another():
-    """A coarser torus active beside one with a map."""
-    torus, _ = two_objects()
-    maps()
-    select(mesh_object("Other", *torus_arrays(around=12, across=6)), torus)
-
-
 def with_poles():
     torus, _ = two_objects()
     select(torus)
@@ -173,7 +162,6 @@ PRESSES = {
         after(tile, lambda: bpy.ops.object.holomorphic_cells()), lambda: bpy.ops.object.holomorphic_cells(simple=True)
     ),
     "relief": Press(with_a_picture, relief),
-    "carry": Press(with_another, carry),
     "drag": Press(with_poles, drag),
     "bake": Press(after(lambda: tile(texture="BRICKS")), bake),
     "texels": Press(after(maps), texels),

@@ -118,7 +118,6 @@ class Structure(Value):
         max_turn: float = 0.2,
         boundary: str = "automatic",
         max_added: float | None = None,
-        size_counts: bool = False,
         allowed: ArrayLike | None = None,
         moves: Mapping[int, int] | None = None,
         turns: int | str = 1,
@@ -151,7 +150,6 @@ class Structure(Value):
             rounding may turn it away
         boundary : "automatic", "straight" or "free", see `Tiler`
         max_added : the largest `added_distortion` that is wanted; default any
-        size_counts : whether the number of tiles counts more than a little shear, as where parts are to have one size
         allowed, surface : as in `tiler`
         moves : {index of a pole in the tiling: vertex} that it is moved to after the rounding, see `Tiler.move_poles`
 
@@ -180,7 +178,7 @@ class Structure(Value):
             check_fits(chosen | {"allowed": (allowed,), "moves": (moves or None,)})
         surface = self._connected if surface is None else surface
         asked = {"lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn, "boundary": boundary}
-        asked |= {"max_added": max_added, "size_counts": size_counts, "allowed": allowed, "moves": moves}
+        asked |= {"max_added": max_added, "allowed": allowed, "moves": moves}
         asked |= {"turns": turns, "lines": lines, "marked": marked, "cones": cones}
         options = tile_options(surface, poles, tiles, evenness=evenness, **asked)
         return Tiling.of_core(self._core.tile(options, threads=self._threads, progress=progress), surface)

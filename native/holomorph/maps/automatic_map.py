@@ -16,7 +16,7 @@ from .automatic_structure import AnyStructure
 from .map import Map
 from .map_objects import Refusal, map_objects
 from .request import EVENNESS, MeshRequest, Request
-from .size import TOLERANCE, SizePolicy
+from .size import SizePolicy
 
 
 def automatic_map(
@@ -26,7 +26,6 @@ def automatic_map(
     main: str = "automatic",
     tiles: float | None = None,
     density: float | None = None,
-    density_tolerance: float = TOLERANCE,
     poles: Poles = "auto",
     lattice: str | ArrayLike = "square",
     direction: ArrayLike | str | None = "upright",
@@ -60,8 +59,7 @@ def automatic_map(
     tiles, poles, lattice, boundary, turn, max_turn, max_added, turns, texture : of tilings, as in `Structure.tile`
     lines, marked : likewise, where they can be made; "automatic" for lines that cost little
     cones : likewise; then there are no lines
-    density, density_tolerance : tiles per unit of area, and the relative amount by which whole tiles may miss it; where
-        they miss it by more, the map is not a tiling
+    density : tiles per unit of area; where whole tiles miss it by more than 20 %, the map is not a tiling
     direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
     evenness : from 0 for a conformal map to 1 for squares of nearly one size; see `Structure.tile`
     effort : how much work may be spent on better maps, over the usual amount: some 5 s of one processor at 20,000
@@ -87,7 +85,7 @@ def automatic_map(
     options |= _turning(turns, texture, lines) | {"marked": marked, "cones": cones}
     chosen = {"options": options, "effort": real_number(effort, "effort", positive=True)}
     request = Request(surface, structure, main, poles, evenness, direction, **chosen)
-    size = SizePolicy.of([surface], tiles, density, density_tolerance)
+    size = SizePolicy.of([surface], tiles, density)
     (((made,), _),) = map_objects([[request]], size, threads, progress)
     if isinstance(made, Map):
         return made

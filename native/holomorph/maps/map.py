@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from .. import _native
 from .._native import TopologyError
@@ -16,7 +15,7 @@ from ..core.array_types import Complexes, Integers, Progress, Reals
 from ..core.value import Value
 from ..cutting.island_layout import Islands
 from ..forms.pole_structure import PoleStructure
-from ..mesh.checks import check_type, checked_coefficients, checked_evenness
+from ..mesh.checks import check_type, checked_evenness
 from ..mesh.folds import folds
 from ..mesh.surface import Surface
 from ..quality.appearance import CONE, HARD_SEAM, POLE, SEAM, cost
@@ -240,21 +239,16 @@ class Map(Value):
 def form_map(
     surface: Surface,
     structure: AnyStructure,
-    coefficients: ArrayLike | None = None,
     why: str = "it was asked for",
     *,
     evenness: float = 0.0,
-    upright: bool = False,
     progress: Progress | None = None,
 ) -> Map:
-    """The `Map` of a combination of a structure's forms, by default the balanced one.
+    """The `Map` of the balanced combination of a structure's forms.
 
     surface : the connected part, whose polygon corners are those that were solved on
-    coefficients : (n,) as `structure.uv` takes them
     evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Jumps stay,
         and so do straight and round boundaries
-    upright : turn the map until v runs up, as far as one turn can do that: by half turns and quarters where its
-        boundary is straight
     progress : as in `conformal_structure`
 
     Raises ValueError for an evenness outside 0 to 1; SolverError; Cancelled.
@@ -269,8 +263,6 @@ def form_map(
     """
     evenness = checked_evenness(evenness)
     check_type(why, str, "why")
-    if coefficients is not None:
-        coefficients = checked_coefficients(coefficients, structure.form_count, structure.coefficient_type)
-    asked = {"coefficients": coefficients, "evenness": evenness, "is_upright": upright, "why": why}
+    asked = {"coefficients": None, "evenness": evenness, "is_upright": False, "why": why}
     made = _native.form_map(structure._core, **asked, threads=structure._threads, progress=progress)
     return Map.of_core(made, surface, structure)

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import numbers
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _native
-from ..core.array_types import Complexes, Reals
 from ..core.arrays import integer
 from ..core.value import quoted
 from ..mesh.checks import checked_evenness
@@ -26,7 +25,6 @@ from .late_structure import LateStructure
 
 MAIN_MAPS = ("automatic", "seamless", "untiled", "balanced")
 EVENNESS = 0.5  # what suits textures: squares hardly differ in size, and their shear is not seen
-MIXED_EVENED = 20_000  # triangles up to which maps are evened while forms are mixed: it takes 0.2 s
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +33,6 @@ class Request:
 
     structure : None to make it, by `automatic_structure`
     main : as in `automatic_map`
-    coefficients : of a "balanced" map, None for those of the balanced one
     options : further ones of `Structure.tile`
     effort : as in `automatic_map`
     """
@@ -46,7 +43,6 @@ class Request:
     poles: Poles = "auto"
     evenness: float = EVENNESS
     direction: Any = "upright"
-    coefficients: Complexes | Reals | None = None
     options: Mapping[str, Any] = field(default_factory=dict)
     effort: float = 1.0
 
@@ -59,20 +55,20 @@ class Request:
     def key(self) -> tuple[Any, ...]:
         """Equal where the same is asked of two parts. A structure that is given may be of choices on that part."""
         given = id(self.structure) if self.main == "balanced" and self.structure is not None else None
-        asked = self.main, self.poles, self.evenness, self.direction, self.coefficients, self.options, self.effort
+        asked = self.main, self.poles, self.evenness, self.direction, self.options, self.effort
         return given, *_plain(asked)
 
     def of_core(self) -> _native.Request:
         """The core's own value. Raises ValueError for an option that no tiling has."""
         if self.main not in MAIN_MAPS:
             raise ValueError(f"main is {quoted(self.main)}; one of {', '.join(MAIN_MAPS)} is needed")
-        structure, coefficients = self._solved, self.coefficients
+        structure = self._solved
         return _native.Request(
             structure._part if structure else part_of(self.surface),
             structure._core if structure else None,
             main=self.main,
             evenness=checked_evenness(self.evenness),
-            coefficients=None if coefficients is None else np.asarray(coefficients, complex),
+            coefficients=None,  # those of the balanced map
             tiling=tile_options(self.surface, self.poles, direction=self.direction, **self.options),
             lines=self.options.get("lines", AUTOMATIC),
             effort=self.effort,
@@ -91,8 +87,6 @@ class Request:
 class MeshRequest:
     """What is asked for of all parts of a mesh, in vertices of the mesh as given; see `automatic_maps`.
 
-    amounts, phases : factor and phase (radians) of the share of each form in balanced maps; where some change them,
-        maps of more than `MIXED_EVENED` triangles are not evened
     options : further ones of `Structure.tile`
     effort : as in `automatic_map`
     """
@@ -105,8 +99,6 @@ class MeshRequest:
     cones: Mapping[int, float] | None = None
     direction: ArrayLike | str | None = "upright"
     evenness: float = EVENNESS
-    amounts: Sequence[float] = ()
-    phases: Sequence[float] = ()
     options: Mapping[str, Any] = field(default_factory=dict)
     effort: float = 1.0
 
@@ -129,13 +121,7 @@ class MeshRequest:
     def of_structure(self, part: PartStructure) -> Request:
         """The `Request` for a part; "automatic" is "balanced" where its structure was chosen, or without area."""
         is_balanced = self.main == "automatic" and (part.is_chosen or not part.surface.area > 0)
-        made = self.of_part(part.surface, part.structure, "balanced" if is_balanced else None)
-        if made.main != "balanced":
-            return made
-        is_mixed = any(amount != 1 for amount in self.amounts) or any(phase != 0 for phase in self.phases)
-        evenness = 0.0 if is_mixed and len(part.surface.triangles) > MIXED_EVENED else self.evenness
-        mixed = _mixed_coefficients(part.structure, self.amounts, self.phases)
-        return replace(made, coefficients=mixed, evenness=evenness)
+        return self.of_part(part.surface, part.structure, "balanced" if is_balanced else None)
 
     def _cones_on(self, part):
         """{vertex of the part: angle}; None where none of them is chosen, and they are searched for."""
@@ -151,18 +137,6 @@ class MeshRequest:
         if allowed.shape != (part.given_vertex_count,):
             raise ValueError(f"allowed has the shape {allowed.shape}; ({part.given_vertex_count},) is needed")
         return allowed[part.vertex_index]
-
-
-def _mixed_coefficients(structure, amounts, phases):
-    """The balanced coefficients with these factors and phases. Real where the balanced ones are: a complex factor would
-    bend the straight boundaries."""
-    result = np.array(structure.balanced_coefficients())
-    factors = np.array(amounts, float)
-    if np.iscomplexobj(result):
-        factors = factors * np.exp(1j * np.array(phases, float))
-    shared = min(len(result), len(factors))
-    result[:shared] *= factors[:shared]
-    return result
 
 
 def _plain(value):

@@ -7,7 +7,6 @@ from dataclasses import astuple, dataclass
 from typing import TypeAlias
 
 from .. import _native
-from ..core.value import quoted
 from ..mesh.checks import real_number
 from ..mesh.surface import Surface
 from ..tiling.options import part_of
@@ -41,17 +40,14 @@ class SizePolicy:
         parts: Sequence[Surface],
         tiles: float | None = None,
         density: float | None = None,
-        tolerance: float = TOLERANCE,
     ) -> SizePolicy:
         """By a number of tiles over all parts, or per unit of area; without either 100 tiles, or 64 for each handle,
         over the largest part. Raises ValueError for both, and for wrong numbers."""
         if tiles is not None and density is not None:
             raise ValueError("give tiles or a density, not both")
-        if real_number(tolerance, "density_tolerance") < 0:
-            raise ValueError(f"density_tolerance is {quoted(tolerance)}; it cannot be negative")
         if density is not None:
             wanted = real_number(density, "density", positive=True)
-            return cls.of_core(_native.SizePolicy.of_density(wanted, tolerance))
+            return cls.of_core(_native.SizePolicy.of_density(wanted, TOLERANCE))
         tiles = tiles and real_number(tiles, "tiles", positive=True)
         return cls.of_core(_native.SizePolicy.of_tiles([part_of(part) for part in parts], tiles or 0.0))
 

@@ -29,7 +29,6 @@ def tile_options(
     max_turn: float = 0.2,
     boundary: str = "automatic",
     max_added: float | None = None,
-    size_counts: bool = False,
     allowed: ArrayLike | None = None,
     moves: Mapping[int, int] | None = None,
     turns: int = 1,
@@ -64,7 +63,7 @@ def tile_options(
         max_turn=real_number(max_turn, "max_turn"),
         boundary=boundary,
         max_added=max_added,
-        size_counts=size_counts,
+        size_counts=False,  # of a part alone
         moves=list(zip(moves, own_poles(surface, component, list(moves.values())))),
         turns=turns,
         lines=lines,

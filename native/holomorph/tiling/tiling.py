@@ -87,12 +87,11 @@ class Tiler:
         max_turn: float = 0.2,
         max_added: float | None = None,
         evenness: float = 0.0,
-        size_counts: bool = False,
         progress: Progress | None = None,
     ) -> Tiling:
         """A `Tiling`; see `Structure.tile`. turn : radians by which the texture is rotated, beside the direction."""
         rounded = {"lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn}
-        rounded |= {"max_added": max_added, "size_counts": size_counts}
+        rounded["max_added"] = max_added
         asked = tile_options(self._surface, "auto", tiles, evenness=evenness, **rounded)
         return self._tiling(self._core.tile(asked, threads=self._threads, progress=progress))
 

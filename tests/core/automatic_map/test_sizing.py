@@ -3,7 +3,7 @@
 import families
 import numpy as np
 import pytest
-from holomorph import Surface, automatic_map, automatic_maps
+from holomorph import Surface, _native, automatic_map, automatic_maps
 from holomorph.maps.arrangement import arranged
 from holomorph.maps.map_objects import map_objects
 from holomorph.maps.request import Request
@@ -62,8 +62,8 @@ def test_squares_of_nearly_one_size_are_preferred_to_a_seam(scale):
     missed = second.density / first.density
     assert first.kind == second.kind == "tiling" and 0.05 < abs(missed - 1) <= TOLERANCE
     assert second.cost + abs(np.log(missed)) <= automatic_map(parts[1], main="untiled").cost
-    requests, size = [Request(part) for part in parts], SizePolicy.of(parts, density=first.density, tolerance=0.05)
-    (((_, exact), _),) = map_objects([requests], size)
+    requests, size = [Request(part) for part in parts], _native.SizePolicy.of_density(first.density, 0.05)
+    (((_, exact), _),) = map_objects([requests], SizePolicy.of_core(size))
     assert not exact.is_tiled
 
 

@@ -129,15 +129,6 @@ def test_no_more_area_is_flipped(name):
     assert max(parts) <= parts[0]
 
 
-def test_coefficients_are_taken():
-    own = structure("handle and hole")
-    coefficients = own.balanced_coefficients() * [1.0, 0.3]
-    conformal = form_map(own.surface, own, coefficients)
-    even = form_map(own.surface, own, coefficients, evenness=0.5)
-    assert np.array_equal(even.coefficients, coefficients)
-    assert even.quality.density_ratio < conformal.quality.density_ratio
-
-
 @pytest.mark.parametrize("name", ["closed", "strip", "log", "rectangle", "free"])
 def test_same_bits_at_any_number_of_threads(name):
     surface = structure(name).surface

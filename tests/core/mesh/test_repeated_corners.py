@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from holomorph import InvalidMesh, Surface, automatic_map
 from holomorph.maps import arrangement
-from holomorph.mesh import intake
 from mesh_files import obj, off, ply_text
 
 TORUS = families.torus(8, 6, shape="triangles")
@@ -50,8 +49,6 @@ def test_files_of_such_quads(name, tmp_path):
     path.write_bytes({"obj": obj, "off": off, "ply": ply_text}[name[-3:]](mesh))
     surface = Surface.read(path)
     assert (surface.genus, surface.boundary_count) == (1, 0)
-    file = intake.read(path)
-    assert np.diff(file.face_offsets).tolist() == [3] * 96 and np.array_equal(file.vertices, mesh.vertices)
     with pytest.raises(InvalidMesh, match="twice"):
         Surface.read(path, strict=True)
 
@@ -111,14 +108,6 @@ def test_rows_at_one_place_are_a_vertex(place, boundary, far, shape):
     assert len(gone) == (0 if shape == "quads" else 14 if place is cone else 28)
     copies = np.concatenate([surface.vertex_index, surface.repairs.joined_vertices])
     assert np.array_equal(np.unique(copies), np.arange(len(mesh.vertices)))
-
-
-def test_the_file_keeps_the_corners_at_the_poles(tmp_path):
-    mesh, path = grid(6, 8, ball, "quads"), tmp_path / "ball.obj"
-    path.write_bytes(obj(mesh))
-    file = intake.read(path)
-    assert np.array_equal(file.corner_vertices, mesh.corners) and np.array_equal(file.face_offsets, mesh.offsets)
-    assert lenient(families.polygons(file.vertices, mesh.faces)).boundary_count == 0
 
 
 def test_a_side_without_length_between_two_faces_stays():

@@ -5,8 +5,8 @@ from dataclasses import replace
 import families
 import numpy as np
 import pytest
-from holomorph import Surface, automatic_map, automatic_structure, island_map
-from holomorph.maps.map import form_map
+from holomorph import Surface, _native, automatic_map, automatic_structure, island_map
+from holomorph.maps.map import Map
 from holomorph.quality.appearance import ON_ITS_HEAD, SIDEWAYS, of_direction
 from holomorph.quality.direction import Direction
 from holomorph.quality.quality import Quality
@@ -106,7 +106,8 @@ def test_the_balanced_map_is_turned_upright():
     ring = surface_of(families.torus(24, 12))
     for each in (surface, lying, ring):
         structure = automatic_structure(each)
-        made = form_map(each, structure, upright=True)
+        asked = {"coefficients": None, "evenness": 0.0, "is_upright": True, "why": "", "threads": 0, "progress": None}
+        made = Map.of_core(_native.form_map(structure._core, **asked), each, structure)
         np.testing.assert_allclose(np.abs(made.coefficients), np.abs(structure.balanced_coefficients()))
         assert each is ring or made.quality.direction.upright_part > 0.99
         assert of_direction(made.quality) < 0.6  # where it is 0.7 in the mean over all turns

@@ -1,16 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A picture of objects in a photo studio: in a scene of its own, so that the user's stays as it is."""
+"""A picture of objects in a photo studio: in a scene of its own, so that the user's stays as it is.
+
+blender -b FILE.blend --factory-startup --python-exit-code 1 --python docs/preview_scene.py -- PNG [RESOLUTION]
+
+This takes one of all mesh objects that are seen.
+"""
+
+import sys
 
 import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from ..scene import mesh_io
-
 VIEW = Vector((0.62, -1.0, 0.55))  # from the object towards the camera: three quarters, from above
 LENS = 70.0  # millimetres, on a 36 mm sensor
 MARGIN = 1.12  # how much wider than the object the picture is
 BACKGROUND = (0.80, 0.81, 0.82)  # linear RGB
+SAMPLES = 24  # of each pixel
 FLOOR_GAP = 1e-3  # share of the object's size: the floor does not intersect the object
 
 
@@ -19,7 +25,7 @@ def render(objects, path, resolution, samples):
     scene = bpy.data.scenes.new("Holomorph Studio")
     for obj in objects:
         scene.collection.objects.link(obj)
-    points = np.concatenate([mesh_io.world_points(o) for o in objects])
+    points = np.concatenate([_world_points(o) for o in objects])
     low, high = points.min(axis=0), points.max(axis=0)
     centre, size = Vector((low + high) / 2), max(float(np.linalg.norm(high - low)), 1e-6)
     scene.camera = _camera(scene, points)
@@ -33,6 +39,14 @@ def render(objects, path, resolution, samples):
     scene.world = _world()
     _settings(scene, path, resolution, samples)
     bpy.ops.render.render(write_still=True, scene=scene.name)
+
+
+def _world_points(obj):
+    """(#V, 3) positions in the world."""
+    points = np.empty(3 * len(obj.data.vertices), np.float32)
+    obj.data.vertices.foreach_get("co", points)
+    matrix = np.array(obj.matrix_world, np.float64)
+    return points.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 def _looking(direction):
@@ -82,7 +96,8 @@ def _floor(scene, centre, height, size):
     """A plane that shows nothing but the object's shadow."""
     half = 40 * size
     corners = [(-half, -half, 0), (half, -half, 0), (half, half, 0), (-half, half, 0)]
-    mesh = mesh_io.new_mesh("Studio Floor", np.array(corners), np.arange(4), np.array([0, 4]))
+    mesh = bpy.data.meshes.new("Studio Floor")
+    mesh.from_pydata(corners, [], [(0, 1, 2, 3)])
     obj = _place(scene, mesh, Matrix.Translation((centre.x, centre.y, height)))
     obj.is_shadow_catcher = True
 
@@ -113,3 +128,12 @@ def _settings(scene, path, resolution, samples):
     scene.display_settings.display_device = "sRGB"
     scene.view_settings.view_transform = "Standard"
     scene.view_settings.look = "None"
+
+
+def main(path, resolution="800"):
+    objects = [obj for obj in bpy.context.view_layer.objects if obj.type == "MESH" and obj.visible_get()]
+    render(objects, path, int(resolution), SAMPLES)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[sys.argv.index("--") + 1 :])
