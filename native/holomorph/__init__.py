@@ -28,7 +28,7 @@ free_boundary_map, FreeBoundaryMap, conformal_image; islands, disk_islands, cut_
 Tilings: Tiler, Tiling, Rounding, place_poles, PlacedPoles; TiledSurface, Places, Lines, Cells, Relief; height_image,
 image_lattice, ImageLattice, image_turns, ImageTurns.
 Surfaces compared: conformally_equivalent, Equivalence, conformal_map, ConformalMap, automorphisms, Automorphisms,
-siegel_reduction, SiegelReduction, igusa_invariants, IgusaInvariants.
+siegel_reduction, SiegelReduction, igusa_invariants.
 Errors: Error, and its kinds InvalidMesh, TopologyError, SolverError, OutOfMemory, Cancelled.
 """
 
@@ -59,7 +59,7 @@ from .moduli.equivalence import Equivalence, conformally_equivalent
 from .forms.fundamental_domain import FundamentalDomain
 from .tiles.height_image import height_image
 from .mesh.holes import punch_holes
-from .moduli.igusa import IgusaInvariants, igusa_invariants
+from .moduli.igusa import igusa_invariants
 from .tiling.image_lattice import ImageLattice, image_lattice
 from .tiling.image_turns import ImageTurns, image_turns
 from .cutting.island_layout import Islands
@@ -108,7 +108,6 @@ if TYPE_CHECKING:  # at run time, help() would print all that it names in full, 
         "Frame",
         "FreeBoundaryMap",
         "FundamentalDomain",
-        "IgusaInvariants",
         "ImageLattice",
         "ImageTurns",
         "Islands",

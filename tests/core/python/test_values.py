@@ -119,7 +119,6 @@ EXAMPLES = {
     "ConformalMap": lambda: holomorph.conformal_map(example("level"), example("level")),
     "Automorphisms": lambda: holomorph.automorphisms(solved("torus of quads")),
     "SiegelReduction": lambda: holomorph.siegel_reduction(example("ConformalStructure").period_matrix),
-    "IgusaInvariants": lambda: holomorph.igusa_invariants(example("ConformalStructure")),
     "Frame": lambda: holomorph.frame(solved("torus of quads").surface, solved("torus of quads").uv([1])),
     "LevelOfDetail": lambda: ProgressiveMesh(surface_of(CLOSED["torus of quads"])).levels_of_detail(
         solved("torus of quads").uv([1]), [200]

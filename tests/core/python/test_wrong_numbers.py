@@ -118,7 +118,6 @@ def calls():
         "frame": (holomorph.frame, {"surface": surface, "uv": uv}),
         "free_boundary_map": (holomorph.free_boundary_map, {"surface": disk}),
         "height_image": (holomorph.height_image, {"path": "none.png"}),
-        "igusa_invariants": (holomorph.igusa_invariants, {"structure": structure}),
         "image_lattice": (holomorph.image_lattice, {"pixels": np.random.default_rng(1).random((32, 32))}),
         "image_turns": (holomorph.image_turns, {"pixels": np.random.default_rng(1).random((32, 32))}),
         "island_map": (holomorph.island_map, {"surface": disk}),
