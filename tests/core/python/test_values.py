@@ -161,7 +161,7 @@ def assert_same(one, two):
         assert_same(one.refused, two.refused)
         assert_same(one.repairs, two.repairs)
     elif isinstance(one, ProgressiveMesh):
-        assert one._native.to_bytes() == two._native.to_bytes()
+        assert_same(list(one.__getstate__().values()), list(two.__getstate__().values()))
     elif isinstance(one, holomorph.TiledSurface):
         for name in ("surface", "uv", "lattice", "poles"):
             assert_same(getattr(one, name), getattr(two, name))
