@@ -37,8 +37,6 @@ SANITIZED = [
     "tiles/test_places.py::test_edges_vertices_and_the_boundary_have_them_once",
     "tiles/test_relief.py::test_crossings_are_those_of_exact_arithmetic",
     "tiles/test_relief.py::test_faces_of_boxes_stay_parallel",
-    "tiling/test_mirror.py::test_any_number_of_poles_is_mirrored",
-    "tiling/test_mirror.py::test_evening_keeps_the_mirror",
     "tiling/test_placement.py::test_a_polygon_has_one_pole_at_most",
     *("islands/test_hard_edges.py", "islands/test_islands.py"),
     "islands/test_cones.py::test_numbers_and_sizes_do_not_matter",
