@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <utility>
@@ -88,13 +87,6 @@ py::array split_slots(const ProgressiveMesh& mesh) {
   return give(std::move(result), {std::ssize(mesh.splits), 2});
 }
 
-py::array triangle_corners(const ProgressiveMesh& mesh) {
-  const std::vector<mesh::Triple> corners = progressive::original_corners(mesh);
-  py::array_t<int> array({std::ssize(corners), py::ssize_t{3}});
-  if (!corners.empty()) std::memcpy(array.mutable_data(), corners.data(), sizeof(corners[0]) * corners.size());
-  return read_only(std::move(array));
-}
-
 std::vector<py::array> lift_loops(const ProgressiveMesh& mesh, int splits, const std::vector<std::vector<int>>& loops) {
   std::vector<std::vector<int>> lifted;
   {
@@ -107,9 +99,7 @@ std::vector<py::array> lift_loops(const ProgressiveMesh& mesh, int splits, const
 }
 
 /// The values at a level's corners, and the corners of the original whose data they have.
-struct LevelCorners {
-  py::array values, corners;
-};
+using LevelCorners = std::pair<py::array, py::array>;
 
 std::vector<LevelCorners> collapsed_corner_values(const ProgressiveMesh& mesh, const Contiguous<double>& array,
                                                   const std::vector<int>& splits, const std::vector<int>& turns) {
@@ -123,7 +113,7 @@ std::vector<LevelCorners> collapsed_corner_values(const ProgressiveMesh& mesh, c
   std::vector<LevelCorners> result;
   for (const auto& level : levels) {
     const py::array rows = copy(level.values).attr("reshape")(-1, width);
-    result.push_back({read_only(rows), copy(level.corners)});
+    result.emplace_back(read_only(rows), copy(level.corners));
   }
   return result;
 }
@@ -146,9 +136,6 @@ void bind_progressive_meshes(py::module_& m) {
   const auto viewed = [](auto member) {
     return [member](py::object self) { return view(self.cast<const ProgressiveMesh&>().*member, self); };
   };
-  py::class_<LevelCorners>(m, "LevelCorners")
-      .def_readonly("values", &LevelCorners::values)
-      .def_readonly("corners", &LevelCorners::corners);
   py::class_<ProgressiveMesh, Pointer>(m, "ProgressiveMesh")
       .def_static("make", &make, py::arg("surface"), py::arg("order"), py::arg("kept"), py::arg("progress"))
       .def_static("of_arrays", &of_arrays, py::arg("base_triangles"), py::arg("split_vertices"), py::arg("split_slots"),
@@ -175,7 +162,8 @@ void bind_progressive_meshes(py::module_& m) {
           [](py::object self) { return view(self.cast<const ProgressiveMesh&>().base.triangles, self); })
       .def_property_readonly("split_vertices", &split_vertices)
       .def_property_readonly("split_slots", &split_slots)
-      .def_property_readonly("triangle_corners", &triangle_corners)
+      .def_property_readonly("triangle_corners",
+                             [](const ProgressiveMesh& mesh) { return copy_rows(progressive::original_corners(mesh)); })
       .def_property_readonly("positions", viewed(&ProgressiveMesh::positions))
       .def_property_readonly("vertex_index", viewed(&ProgressiveMesh::vertex_index))
       .def_property_readonly("triangle_index", viewed(&ProgressiveMesh::triangle_index))

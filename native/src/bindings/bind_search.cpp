@@ -209,14 +209,15 @@ void bind_map_objects(py::module_& m) {
       .def("raise_refusal", [](const Made& made) {
         if (made.refused) std::rethrow_exception(made.refused);
       });
-  py::class_<MappedParts>(m, "MappedParts")
-      .def_readonly("parts", &MappedParts::parts)
-      .def_readonly("size", &MappedParts::size);
   m.def(
       "map_objects",
       [](const std::vector<std::vector<Request>>& objects, const SizePolicy& size, int threads,
          const py::object& progress) {
-        return unlocked(threads, progress, [&](Execution& execution) { return map_objects(objects, size, execution); });
+        std::vector<std::pair<std::vector<Made>, SizePolicy>> result;
+        for (MappedParts& made :
+             unlocked(threads, progress, [&](Execution& execution) { return map_objects(objects, size, execution); }))
+          result.emplace_back(std::move(made.parts), made.size);
+        return result;
       },
       "objects"_a, "size"_a, py::kw_only(), "threads"_a, "progress"_a);
   m.def(
