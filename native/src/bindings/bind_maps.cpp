@@ -158,8 +158,6 @@ void bind_plane_maps(py::module_& m) {
       .def("timings", [](const PlaneMap& map) { return map.seconds; });
   m.def("rectangle_map", &rectangle, py::arg("surface"), py::arg("corners"), py::arg("labels"), py::arg("solver"),
         py::arg("threads"), py::arg("progress"));
-  m.def("triangle_map", plane_map(&plane::triangle_map), py::arg("surface"), py::arg("solver"), py::arg("threads"),
-        py::arg("progress"));
   m.def("free_boundary_map", plane_map(&plane::free_boundary_map), py::arg("surface"), py::arg("solver"),
         py::arg("threads"), py::arg("progress"));
   m.def("quarter_corners", of_surface(&plane::quarter_corners), py::arg("surface"));

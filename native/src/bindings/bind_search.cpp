@@ -29,7 +29,7 @@ using Shared = std::shared_ptr<AnyStructure>;
 using MutableMap = std::shared_ptr<Map>;
 using MutablePart = std::shared_ptr<Part>;
 
-constexpr std::array<const char*, 7> kKinds{"forms", "strip", "log", "disk", "rectangle", "triangle", "flat"};
+constexpr std::array<const char*, 6> kKinds{"forms", "strip", "log", "disk", "rectangle", "flat"};
 
 MapKind kind_named(const std::string& name) {
   return static_cast<MapKind>(std::ranges::find(kKinds, name) - kKinds.begin());

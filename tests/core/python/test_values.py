@@ -24,7 +24,6 @@ from holomorph import (
     free_boundary_map,
     log_map,
     rectangle_map,
-    triangle_map,
 )
 from solids import can
 from solved import BOUNDED, CLOSED, FLAT, solved, surface_of
@@ -100,7 +99,6 @@ EXAMPLES = {
     "Map of pieces": lambda: automatic_map(can()),
     "RectangleMap": lambda: rectangle_map(Surface([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])),
     "FreeBoundaryMap": lambda: free_boundary_map(disk()),
-    "TriangleMap": lambda: triangle_map(Surface(np.eye(3), [[0, 1, 2]])),
     "level": lambda: ProgressiveMesh(surface_of(CLOSED["torus of quads"])).conformal_structure(200),
     "Certificate": lambda: example("ConformalStructure").certificate,
     "Refinement": lambda: example("narrow bounds").refinement,
@@ -132,7 +130,7 @@ EXAMPLES = {
 }
 STRUCTURES = [
     *("ConformalStructure", "narrow bounds", "BoundedStructure", "double cover", "PoleStructure", "truncated"),
-    *("residues", "DiskMap", "automatic structure", "cut", "RectangleMap", "FreeBoundaryMap", "TriangleMap", "level"),
+    *("residues", "DiskMap", "automatic structure", "cut", "RectangleMap", "FreeBoundaryMap", "level"),
 ]
 
 

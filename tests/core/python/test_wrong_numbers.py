@@ -129,7 +129,6 @@ def calls():
         "rectangle_map": (holomorph.rectangle_map, {"surface": disk}),
         "siegel_reduction": (holomorph.siegel_reduction, {"period_matrix": [[1j]]}),
         "symmetrised": (holomorph.symmetrised, {"double": holomorph.double_cover(disk), "forms": np.zeros(1)}),
-        "triangle_map": (holomorph.triangle_map, {"surface": disk}),
         "verdict": (holomorph.verdict, {"quality": quality}),
         "layout.rows": (layout.rows, {"sizes": np.ones((2, 2)), "width": 2.0, "gap": 0.0}),
         "layout.pack": (layout.pack, {"sizes": np.ones((2, 2)), "margin": 0.1}),
