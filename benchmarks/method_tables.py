@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """python benchmarks/method_tables.py [NAME]...
 
-Prints the tables of docs/method: known (periods.md), poles (poles.md), levels (progressive.md), tubes (disks.md),
-tilings (tilings.md) and mirrors (symmetry.md). All but the first two need the folder ../shared/meshes.
+Prints the tables of docs/method: known (periods.md), poles (poles.md), levels (progressive.md), tubes (disks.md)
+and tilings (tilings.md). All but the first two need the folder ../shared/meshes.
 """
 
 import sys
@@ -22,7 +22,6 @@ import holomorph  # noqa: E402
 from solved import surface_of  # noqa: E402
 
 SQUARE_MINUS_SQUARE = 10.234092569368052
-SHEAR = 0.08  # which has no mirror image
 CONE = np.log(4) / np.pi  # of half angle 30 degrees, from radius 1/2 to 2
 DISKS = {"face_34k_b1.obj": "a face", "hemisphere_b1.obj": "a hemisphere", "hand_lowres_b1.obj": "an open hand"}
 DISKS["fertility_cutseam.obj"] = "a fertility statue, cut open"
@@ -111,20 +110,7 @@ def tilings():
         print(f"{file} | {len(structure.surface.triangles)} | {len(made.poles)} | {figures} | {seconds:.1f}")
 
 
-def mirrors():
-    """95:5 that 16 poles allow, with a mirror and without one; the same at evenness 0.5."""
-    for file in ("makehuman_base_quads.obj", "fish_quads.obj", "spot_quads.obj"):
-        surface = max(holomorph.Surface.read(MESHES / file, strict=False).components, key=lambda part: part.area)
-        sheared = surface.vertices + SHEAR * surface.vertices[:, [1, 2, 0]]
-        parts = [surface, holomorph.Surface.from_polygons(sheared, surface.corner_vertices, surface.face_offsets)]
-        found = []
-        for evenness in (0, 0.5):
-            made = [holomorph.automatic_structure(part).tile(poles=16, evenness=evenness) for part in parts]
-            found += [f"{tiling.quality.density_ratio:.1f}" for tiling in made]
-        print(f"{file} | {' | '.join(found)}")
-
-
-TABLES = dict(known=known, poles=poles, levels=levels, tubes=tubes, tilings=tilings, mirrors=mirrors)
+TABLES = dict(known=known, poles=poles, levels=levels, tubes=tubes, tilings=tilings)
 
 if __name__ == "__main__":
     for name in sys.argv[1:] or TABLES:

@@ -124,7 +124,6 @@ WORDS = {
     "{} cut open": "{} ouvert",
     "{} round": "{} rond",
     "{} rectangular": "{} rectangulaire",
-    "{} triangular": "{} triangulaire",
     "in islands": "en îlots",
     "flat": "à plat",
     "partly seamless": "en partie sans couture",

@@ -124,7 +124,6 @@ WORDS = {
     "{} cut open": "{} aufgeschnitten",
     "{} round": "{} rund",
     "{} rectangular": "{} rechteckig",
-    "{} triangular": "{} dreieckig",
     "in islands": "in Inseln",
     "flat": "flach",
     "partly seamless": "teils nahtlos",

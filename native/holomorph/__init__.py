@@ -23,12 +23,12 @@ Its quality: Verdict, verdict, Seen, UNEVEN, Quality, distortion; CoarsePlace, c
 Structures: conformal_structure, automatic_structure, AnyStructure, SOLVERS; ConformalStructure, BoundedStructure,
 PoleStructure, log_map, Zeros, FundamentalDomain, PeriodMatrix; Certificate, Refinement; MemoryPlan, SolverReport,
 Residuals.
-Maps to the plane and the sphere: disk_map, DiskMap, rectangle_map, RectangleMap, triangle_map, TriangleMap,
+Maps to the plane and the sphere: disk_map, DiskMap, rectangle_map, RectangleMap,
 free_boundary_map, FreeBoundaryMap, conformal_image; islands, disk_islands, cut_to_cones.
 Tilings: Tiler, Tiling, Rounding, place_poles, PlacedPoles; TiledSurface, Places, Lines, Cells, Relief; height_image,
 image_lattice, ImageLattice, image_turns, ImageTurns.
 Surfaces compared: conformally_equivalent, Equivalence, conformal_map, ConformalMap, automorphisms, Automorphisms,
-siegel_reduction, SiegelReduction, igusa_invariants, IgusaInvariants.
+siegel_reduction, SiegelReduction, igusa_invariants.
 Errors: Error, and its kinds InvalidMesh, TopologyError, SolverError, OutOfMemory, Cancelled.
 """
 
@@ -52,14 +52,14 @@ from .cutting.cones import cut_to_cones
 from .maps.conformal_image import conformal_image
 from .moduli.conformal_map import ConformalMap, conformal_map
 from .plane.cut import cut_along
-from .plane.disk import disk_map, free_boundary_map, rectangle_map, triangle_map
+from .plane.disk import disk_map, free_boundary_map, rectangle_map
 from .cutting.disk_islands import disk_islands
 from .mesh.double import double_cover, symmetrised
 from .moduli.equivalence import Equivalence, conformally_equivalent
 from .forms.fundamental_domain import FundamentalDomain
 from .tiles.height_image import height_image
 from .mesh.holes import punch_holes
-from .moduli.igusa import IgusaInvariants, igusa_invariants
+from .moduli.igusa import igusa_invariants
 from .tiling.image_lattice import ImageLattice, image_lattice
 from .tiling.image_turns import ImageTurns, image_turns
 from .cutting.island_layout import Islands
@@ -72,7 +72,7 @@ from .maps.mixed import Mixed
 from .forms.narrow_bounds import Refinement
 from .packing.layout import Frame, frame, place
 from .tiles.places import Lines, Places
-from .plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
+from .plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap
 from .forms.pole_structure import PoleStructure
 from .levels.progressive import ProgressiveMesh
 from .quality.quality import Quality
@@ -108,7 +108,6 @@ if TYPE_CHECKING:  # at run time, help() would print all that it names in full, 
         "Frame",
         "FreeBoundaryMap",
         "FundamentalDomain",
-        "IgusaInvariants",
         "ImageLattice",
         "ImageTurns",
         "Islands",
@@ -142,7 +141,6 @@ if TYPE_CHECKING:  # at run time, help() would print all that it names in full, 
         "Tiler",
         "Tiling",
         "TopologyError",
-        "TriangleMap",
         "UNEVEN",
         "Verdict",
         "Zeros",
@@ -181,7 +179,6 @@ if TYPE_CHECKING:  # at run time, help() would print all that it names in full, 
         "report",
         "siegel_reduction",
         "symmetrised",
-        "triangle_map",
         "verdict",
     ]
 for _error in (Error, InvalidMesh, TopologyError, SolverError, OutOfMemory, Cancelled):

@@ -79,7 +79,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--minutes", type=float, default=60)
     parser.add_argument(
-        "--target", action="append", help=f"one of {', '.join(worker.TARGETS)}, operator; default: the four"
+        "--target", action="append", help=f"one of {', '.join(worker.TARGETS)}, operator; default: the three"
     )
     parser.add_argument("--first", type=int, default=0, help="number of the first input")
     parser.add_argument("--keep", type=Path, help="folder for what breaks something, made small")

@@ -24,7 +24,7 @@ HERE = Path(__file__).resolve().parent
 PATHS = os.environ.get("PYTHONPATH", "").split(os.pathsep)
 sys.path[:0] = [str(HERE), str(HERE.parent / "support"), *filter(None, PATHS)]
 
-TARGETS = ("readers", "progressive", "pipeline", "gluings")
+TARGETS = ("readers", "pipeline", "gluings")
 LIMIT = float(os.environ.get("HOLOMORPH_FUZZ_LIMIT", 60))  # seconds of the processor: far more than any input takes
 WAIT = 900  # seconds: for threads that wait for each other, on a machine that does other things besides
 

@@ -40,7 +40,7 @@ def theta_sizes(omega):
     """The sorted sizes of the even theta constants of a period matrix, those that vanish left out, over their geometric
     mean, by the partitions of 2g + 2 points into halves, of which each has one."""
     g = len(omega)
-    sizes = np.sort([abs(value) for value, _ in even_theta_constants(siegel_reduction(omega).period_matrix)])
+    sizes = np.sort(np.abs(even_theta_constants(siegel_reduction(omega).period_matrix)))
     partitions = len(list(combinations(range(2 * g + 1), g)))
     return _over_mean(sizes[-partitions:])
 

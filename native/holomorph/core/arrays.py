@@ -1,6 +1,5 @@
 """Arrays from the caller, checked before they reach the native core."""
 
-import json
 from itertools import chain
 
 import numpy as np
@@ -110,25 +109,3 @@ def frozen(array):
     """The same array, read-only."""
     array.setflags(write=False)
     return array
-
-
-def packed(corner_data, corner_count):
-    """The type of one row in words, and all rows as bytes."""
-    rows = np.ascontiguousarray(corner_data)
-    if rows.dtype.kind not in "biufc":
-        raise InvalidMesh(f"corner_data has the type {rows.dtype}; numbers or booleans are needed")
-    if rows.ndim == 0 or len(rows) != corner_count:
-        raise InvalidMesh(f"corner_data has {len(rows) if rows.ndim else 0} rows for {corner_count} polygon corners")
-    return json.dumps([rows.dtype.str, rows.shape[1:]]), rows.tobytes()
-
-
-def unpacked(kind, data, corner_count):
-    """The rows that `packed` made into this type and these bytes, read-only."""
-    try:
-        name, shape = json.loads(kind)
-        dtype, shape = np.dtype(name), tuple(shape)
-        if dtype.kind not in "biufc" or not all(isinstance(n, int) and n >= 0 for n in shape):
-            raise ValueError(kind)
-        return frozen(np.frombuffer(data, dtype).reshape((corner_count, *shape)))
-    except (ValueError, TypeError, RecursionError) as error:
-        raise InvalidMesh("the progressive mesh is damaged: its corner data have an unknown type") from error

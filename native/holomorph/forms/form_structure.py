@@ -155,9 +155,10 @@ class FormStructure(Structure):
         """`Zeros` of the differential sum_j c_j theta_j, the coefficients as in `uv`. Its index at a vertex is the sum
         of the signed angles of the image over 2 pi, minus 1; a flipped triangle counts 1."""
         poles = self._native.poles()
-        found, positions = _native.zeros(self._triangulation, self.uv(coefficients), poles), self._component.vertices
-        at = None if positions is None else positions[found.vertices]
-        return Zeros(self._of_surface(found.vertices), found.orders, at)
+        vertices, orders = _native.zeros(self._triangulation, self.uv(coefficients), poles)
+        positions = self._component.vertices
+        at = None if positions is None else positions[vertices]
+        return Zeros(self._of_surface(vertices), orders, at)
 
     @property
     def form_count(self) -> int:

@@ -29,7 +29,7 @@ def lift_loops(mesh: ProgressiveMesh, loops: Sequence[Integers], n_faces: int | 
     -------
     list of integer arrays
     """
-    count = len(mesh._native.splits().v_s)
+    count = len(mesh._native.split_slots)
     splits = count if n_faces is None else mesh._split_count(n_faces)
     check_list(loops, "loops")
     given = [arrays.integer(loop, "loop") for loop in loops]

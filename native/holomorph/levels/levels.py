@@ -105,8 +105,8 @@ def levels_of_detail(
     of_maps = np.broadcast_to(np.asarray(turns, object), maps.shape[1] // 2)
     collapsed = mesh._native.collapsed_corner_values(maps, splits, [checked_turns(each) for each in of_maps])
     levels = []
-    for index, (count, given) in enumerate(zip(splits, collapsed)):
-        surface, values, report = mesh._level(count), given.values, None
+    for index, (count, (values, corners)) in enumerate(zip(splits, collapsed)):
+        surface, report = mesh._level(count), None
         moves = np.zeros((len(surface.vertices), values.shape[1]))
         if harmonic:
             part = _part(progress, index, len(splits))
@@ -116,7 +116,7 @@ def levels_of_detail(
         drift = np.linalg.norm(moves.reshape(len(moves), *uv.shape[1:]), axis=-1)
         values = arrays.frozen(values.reshape(-1, *uv.shape[1:]))
         vertex_map = arrays.frozen(mesh._map_of_original(count))
-        levels.append(LevelOfDetail(surface, values, given.corners, arrays.frozen(drift), vertex_map, report))
+        levels.append(LevelOfDetail(surface, values, corners, arrays.frozen(drift), vertex_map, report))
     return tuple(levels)
 
 
@@ -138,8 +138,8 @@ def level_corner_data(mesh: ProgressiveMesh, n_faces: int) -> NDArray[Any] | Non
     if rows.size:
         rows = rows.view(np.dtype((np.void, rows.dtype.itemsize * rows.shape[1])))[:, 0]
         kinds = np.unique(rows, return_inverse=True)[1].astype(float)
-    (level,) = mesh._native.collapsed_corner_values(kinds[:, None], [mesh._split_count(n_faces)], [])
-    return arrays.frozen(data[level.corners])
+    ((_, corners),) = mesh._native.collapsed_corner_values(kinds[:, None], [mesh._split_count(n_faces)], [])
+    return arrays.frozen(data[corners])
 
 
 def _maps(uv, corner_count):

@@ -16,14 +16,13 @@ from .._native import InvalidMesh
 from ..core import arrays
 from ..core.array_types import FilePath, Integers, Progress
 from ..core.value import Value, quoted
-from ..files import checked_file
 from ..forms.bounded import BoundedStructure
 from ..forms.closed import ConformalStructure
 from ..forms.results import result
 from ..mesh.checks import as_float, check_memory_limit, check_options, check_thresholds, check_type
 from ..mesh.origin import Origin
 from ..mesh.surface import Surface
-from . import level_forms, levels
+from . import level_forms, levels, stored
 from .splits import structured_splits
 
 ORDERS = ("quadric", "independent")
@@ -70,13 +69,11 @@ class ProgressiveMesh(Value):
         check_type(surface, Surface)
         if order not in ORDERS:
             raise ValueError(f"order is {quoted(order)}; one of {', '.join(map(repr, ORDERS))} is needed")
-        kind, data = "", b""
-        if corner_data is not None:
-            kind, data = arrays.packed(corner_data, len(surface.corner_vertices))
+        self.corner_data = None if corner_data is None else _checked(corner_data, len(surface.corner_vertices))
         vertices = arrays.integer(kept if np.size(kept) else np.empty(0, np.int64), "kept")
         if len(vertices) and not 0 <= vertices.min() <= vertices.max() < surface._native.vertex_count:
             raise InvalidMesh("kept names a vertex that is not in the surface")
-        self._native = _native.ProgressiveMesh.make(surface._native, order, kind, data, vertices.tolist(), progress)
+        self._native = _native.ProgressiveMesh.make(surface._native, order, vertices.tolist(), progress)
 
     @classmethod
     def load(cls, path: FilePath) -> ProgressiveMesh:
@@ -85,30 +82,32 @@ class ProgressiveMesh(Value):
         Raises
         ------
         InvalidMesh
-            if the file is missing, damaged or of another version; every count, index and split is checked.
+            if the file is missing or damaged; every count, index and split is checked.
         """
         mesh = cls.__new__(cls)
         try:
-            mesh._native = _native.ProgressiveMesh.from_bytes(checked_file.read(path))
-            mesh.corner_data  # noqa: B018 - its type is checked where it is made
+            mesh.__setstate__(stored.read(path))
         except OSError as error:
             raise InvalidMesh(f"{os.fspath(path)}: {error.strerror}") from error
-        except (InvalidMesh, UnicodeDecodeError) as error:
+        except InvalidMesh as error:
             raise InvalidMesh(f"{os.fspath(path)}: {error}") from error
         return mesh
 
     def save(self, path: FilePath) -> None:
-        """Writes one binary file: the base, the splits and their attributes, with a checksum at the end."""
-        checked_file.write(path, self._native.to_bytes())
+        """Writes one .npz file, whatever its name: the arrays of the base, of the splits and of their attributes."""
+        stored.write(path, self.__getstate__())
 
     def _facts(self):
-        return [f"{self._native.base_triangle_count} to {len(self._native.triangle_index)} triangles"]
+        return [f"{len(self._native.base_triangles)} to {len(self._native.triangle_index)} triangles"]
 
     def __getstate__(self):
-        return {"content": self._native.to_bytes()}
+        state = stored.arrays_of(self._native)
+        return state if self.corner_data is None else {**state, "corner_data": self.corner_data}
 
     def __setstate__(self, state):
-        self._native = _native.ProgressiveMesh.from_bytes(state["content"])
+        self._native = stored.native_of(state)
+        data = state.get("corner_data")
+        self.corner_data = None if data is None else _checked(data, self._corner_count)
 
     @cached_property
     def base(self) -> Surface:
@@ -132,7 +131,7 @@ class ProgressiveMesh(Value):
 
     @cached_property
     def _corners(self):
-        return self._native.original_corners()
+        return self._native.triangle_corners
 
     @cached_property
     def _faces(self):
@@ -142,11 +141,8 @@ class ProgressiveMesh(Value):
             return self._native.triangle_index
         return np.repeat(np.arange(len(offsets) - 1, dtype=np.int32), np.diff(offsets) - 2)[self._native.triangle_index]
 
-    @cached_property
-    def corner_data(self) -> NDArray[Any] | None:
-        """The rows given for the original's polygon corners; None if there were none; see `level_corner_data`."""
-        kind = self._native.corner_type
-        return arrays.unpacked(kind, self._native.corner_data, self._corner_count) if kind else None
+    corner_data: NDArray[Any] | None
+    """The rows given for the original's polygon corners; None if there were none; see `level_corner_data`."""
 
     # Defined in levels.py.
     level_corner_data = levels.level_corner_data
@@ -239,3 +235,13 @@ class ProgressiveMesh(Value):
     # Defined in level_forms.py.
     lift_loops = level_forms.lift_loops
     pull_back_forms = level_forms.pull_back_forms
+
+
+def _checked(corner_data, corner_count):
+    """A copy, read-only."""
+    rows = np.array(corner_data, order="C")
+    if rows.dtype.kind not in "biufc":
+        raise InvalidMesh(f"corner_data has the type {rows.dtype}; numbers or booleans are needed")
+    if rows.ndim == 0 or len(rows) != corner_count:
+        raise InvalidMesh(f"corner_data has {len(rows) if rows.ndim else 0} rows for {corner_count} polygon corners")
+    return arrays.frozen(rows)

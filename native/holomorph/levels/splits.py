@@ -22,17 +22,16 @@ def structured_splits(native, corners):
 
     corners : (#T, 3) polygon corners of the original at the triangles' corners
     """
-    columns = native.splits()
-    v_s, v_l, v_r = columns.v_s, columns.v_l, columns.v_r
+    v_s, v_l, v_r = native.split_vertices.T
     splits = np.empty(len(v_s), SPLIT)
     first, count = native.base_vertex_count, len(v_s)
     splits["v_s"], splits["v_l"], splits["v_r"] = v_s, v_l, v_r
     splits["v_t"] = np.arange(first, first + count)
-    splits["slots"] = np.stack([columns.slot_l, columns.slot_r], axis=1)
+    splits["slots"] = native.split_slots
     splits["position"] = native.positions[first : first + count]
     splits["vertex"] = native.vertex_index[first : first + count]
     present = np.stack([v_l, v_r], axis=1) >= 0
-    triangle = native.base_triangle_count + np.cumsum(present.ravel()).reshape(present.shape) - 1
+    triangle = len(native.base_triangles) + np.cumsum(present.ravel()).reshape(present.shape) - 1
     triangle = np.where(present, triangle, 0)
     splits["triangles"] = np.where(present, native.triangle_index[triangle], -1)
     splits["corners"] = np.where(present[:, :, None], corners[triangle], -1)

@@ -21,10 +21,10 @@ from ..mesh.edges import around_boundary
 from ..mesh.surface import Surface
 from ..plane.cut import cut_along
 from ..plane.disk import default_disk_map, disk_map, disk_structure_of, free_boundary_map, rectangle_map
-from ..plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
+from ..plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap
 
 AnyStructure: TypeAlias = (
-    ConformalStructure | BoundedStructure | PoleStructure | DiskMap | FreeBoundaryMap | RectangleMap | TriangleMap
+    ConformalStructure | BoundedStructure | PoleStructure | DiskMap | FreeBoundaryMap | RectangleMap
 )
 Vertices: TypeAlias = Sequence[int] | Integers
 

@@ -87,7 +87,7 @@ class Map(Value):
         "forms" : a combination of holomorphic forms, cut along seams
         "strip" : an annulus as a rectangle whose two other sides are a seam
         "log" : around poles, which lie at infinity, also a sphere as a strip
-        "disk", "rectangle", "triangle" : a disk with a straight or round boundary
+        "disk", "rectangle" : a disk with a round or straight boundary
         "flat" : in one piece, with a free boundary
         "islands" : in flat pieces
         "mixed" : in pieces between hard edges, some of them tilings, the rest flat

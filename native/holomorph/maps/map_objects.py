@@ -43,10 +43,10 @@ def map_objects(
     found = _native.map_objects(fitting, size.core, threads=threads, progress=progress)
     requests = [r for parts, cores in zip(objects, asked) for r, core in zip(parts, cores) if _is_core(core)]
     maps, result = _Maps(requests, threads), []
-    for cores, mapped in zip(asked, found):
-        made = iter(mapped.parts)
+    for cores, (mapped, own_size) in zip(asked, found):
+        made = iter(mapped)
         own = [maps.of(next(made)) if _is_core(core) else core for core in cores]
-        result.append(MappedParts(own, SizePolicy.of_core(mapped.size)))
+        result.append(MappedParts(own, SizePolicy.of_core(own_size)))
     return result
 
 

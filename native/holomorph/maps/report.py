@@ -42,7 +42,6 @@ WORDS = {
     "forms": "cut open",
     "disk": "round",
     "rectangle": "rectangular",
-    "triangle": "triangular",
 }
 PLAIN_ARRANGEMENT = Arrangement()
 PLAIN = ("tiling", "forms")  # kinds that need no word where the mesh is one part: the verdict says the rest

@@ -137,7 +137,7 @@ def compared(structures, tolerance, progress):
     is_known = any(isinstance(structure, KnownPeriods) for structure in structures)
     needed = AGREEMENT * _common_bars(*(lattice.radius() for lattice in lattices), is_known)
     made = _native.compare(*lattices, allowed=tolerance, needed=needed, progress=scaled(progress, 0.0, 0.5))
-    verdict, isometry = made.verdict.name, made.isometry
+    verdict, isometry = made.verdict, made.isometry
     if verdict == "indistinguishable" and sides[0].genus == 0 and sides[0].boundary_count > LOOPS_OF_ACHIRAL_SURFACES:
         verdict, isometry = _planar(structures, lattices, made, scaled(progress, 0.5, 0.5))
     is_bounded = all(structure.period_bounds is not None for structure in structures)
@@ -167,8 +167,10 @@ def _planar(structures, lattices, made, progress):
     if verdict == "indistinguishable":
         return verdict, made.isometry
     needed = made.isometry.residual + made.margin
-    others = _native.isometries(*(lattice.projected() for lattice in lattices), sign=1, slack=needed, progress=progress)
-    for isometry in sorted(others.found, key=lambda each: each.residual):
+    others, _ = _native.isometries(
+        *(lattice.projected() for lattice in lattices), sign=1, slack=needed, progress=progress
+    )
+    for isometry in sorted(others, key=lambda each: each.residual):
         if planar_verdict(*structures, isometry.matrix) == "indistinguishable":
             return "indistinguishable", isometry
     return verdict, made.isometry

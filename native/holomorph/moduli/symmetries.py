@@ -66,14 +66,14 @@ def automorphisms(
     lattice = period_lattice(structure)
     allowed = max(real_number(tolerance, "tolerance"), AGREEMENT * lattice.radius(), ROUNDING)
     projected = lattice.projected()
-    search = _native.isometries(projected, projected, sign=1, slack=allowed, progress=progress)
-    if not search.is_complete:
+    found, is_complete = _native.isometries(projected, projected, sign=1, slack=allowed, progress=progress)
+    if not is_complete:
         raise Error(f"the search among integer matrices reached its limit of {STEPS} steps")
-    found = sorted(search.found, key=lambda isometry: isometry.residual)
+    found = sorted(found, key=lambda isometry: isometry.residual)
     matrices, residuals = np.array([each.matrix for each in found]), np.array([each.residual for each in found])
     count, generators = _largest_group(matrices, residuals, allowed)
-    others = _native.isometries(lattice, lattice, sign=1, slack=0.0, progress=progress)
-    at_most = len(others.found) if others.is_complete else None
+    others, is_complete = _native.isometries(lattice, lattice, sign=1, slack=0.0, progress=progress)
+    at_most = len(others) if is_complete else None
     return Automorphisms(count, tuple(matrices[generators]), float(residuals[count - 1]), at_most)
 
 

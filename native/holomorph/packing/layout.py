@@ -68,8 +68,7 @@ def frame(surface: Surface, uv: ArrayLike, rotation: float = 0.0) -> Frame:
     2.0
     """
     uv = _corners(uv, len(surface.corner_vertices))
-    found = _native.frame(surface._native, uv, rotation=real_number(rotation, "rotation"), threads=0)
-    return Frame(found.low, found.high, found.area)
+    return Frame(*_native.frame(surface._native, uv, rotation=real_number(rotation, "rotation"), threads=0))
 
 
 def place(

@@ -18,7 +18,7 @@ from ..mesh.checks import check_bounds, check_options, only_component, own_verti
 from ..mesh.double import glued_copies
 from ..mesh.surface import Surface
 from ..tiling.options import part_of
-from .plane_maps import DiskMap, FreeBoundaryMap, PlaneMap, RectangleMap, TriangleMap
+from .plane_maps import DiskMap, FreeBoundaryMap, PlaneMap, RectangleMap
 
 
 def disk_map(
@@ -139,30 +139,6 @@ def free_boundary_map(
     return made.computed_by(partial(free_boundary_map, surface, solver=solver, threads=threads))
 
 
-def triangle_map(
-    surface: Surface, *, solver: str = "auto", threads: int | None = None, progress: Progress | None = None
-) -> TriangleMap:
-    """The `TriangleMap` of a disk with three boundary edges, such as a single triangle.
-
-    solver, threads, progress : as in `conformal_structure`
-
-    Raises TopologyError for other surfaces; SolverError; Cancelled.
-    Source: Riemann's mapping theorem: a disk with three corners has one such map; docs/method/disks.md.
-
-    Examples
-    --------
-    >>> triangle = holomorph.Surface([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    >>> print(abs(holomorph.triangle_map(triangle).uv([])).round(3))
-    [[0.    0.   ]
-     [0.707 0.   ]
-     [0.    0.707]]
-    """
-    count, component = check_options(solver, threads), _disk(surface, "a triangle")
-    native = _native.triangle_map(component._native, solver, count, progress)
-    made = result(TriangleMap, surface, component, native, count)
-    return made.computed_by(partial(triangle_map, surface, solver=solver, threads=threads))
-
-
 def _disk(surface, what):
     component = only_component(surface)
     if (component.genus, component.boundary_count) == (0, 1):
@@ -170,7 +146,7 @@ def _disk(surface, what):
     raise TopologyError(f"the surface has {component._topology.text()}; {what} needs a disk")
 
 
-KINDS = {"disk": DiskMap, "rectangle": RectangleMap, "triangle": TriangleMap, "flat": FreeBoundaryMap}
+KINDS = {"disk": DiskMap, "rectangle": RectangleMap, "flat": FreeBoundaryMap}
 
 
 def default_disk_map(surface, *, solver, threads, progress) -> PlaneMap | PoleStructure:
@@ -180,8 +156,8 @@ def default_disk_map(surface, *, solver, threads, progress) -> PlaneMap | PoleSt
     map to the unit disk centred at the vertex farthest from the boundary along the edges. Where its size range is
     above 10, as on a glove or a long tube, the most even one of it, the log map with the same pole and the
     rectangle with corners at the quarters of the boundary. Where every vertex is next to the boundary, that rectangle,
-    or the map with a free boundary where the rectangle collapses triangles and it flips none; with three boundary edges
-    a triangle.
+    or the map with a free boundary where the rectangle collapses triangles and it flips none, and with three boundary
+    edges.
     """
     component, count = only_component(surface), check_options(solver, threads)
     options = {"solver": solver, "threads": count, "memory_limit": 0, "progress": progress}

@@ -153,27 +153,6 @@ class RectangleMap(PlaneMap):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class TriangleMap(PlaneMap):
-    """Result of `triangle_map`: the harmonic map of a disk with three boundary edges to the triangle with these edges,
-    its longest side 1."""
-
-    map_kind = "triangle"
-
-    @cached_property
-    def description(self) -> str:
-        """What was made, in one phrase."""
-        return "triangle with the sides of the boundary"
-
-    @cached_property
-    def _plane(self):
-        return arrays.frozen(self._native.points().ravel())
-
-    def invariants(self) -> dict[str, Any]:
-        """Nothing: all disks are alike."""
-        return {}
-
-
-@dataclass(frozen=True, eq=False, repr=False)
 class FreeBoundaryMap(PlaneMap):
     """Result of `free_boundary_map`: the conformal map of a disk with the least variation of density.
 

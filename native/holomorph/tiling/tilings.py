@@ -104,13 +104,13 @@ class Tiling(Value):
     @classmethod
     def of_core(cls, made: _native.SeamlessMap, surface: Surface) -> Tiling:
         """The one that the core made of a connected surface."""
-        zeros = made.zeros
+        zeros, orders = made.zeros
         return cls(
             uv=made.uv,
             periods=made.periods,
             poles=vertices_of(surface, made.poles),
             residues=made.residues,
-            zeros=(vertices_of(surface, zeros.vertices), zeros.orders),
+            zeros=(vertices_of(surface, zeros), orders),
             evenness=made.evenness,
             added_distortion=made.added_distortion,
             beltrami_rms=made.beltrami_rms,

@@ -54,6 +54,14 @@ py::array copy(const std::vector<T, Allocator>& values) {
   return read_only(py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data()));
 }
 
+/// The same for rows of N values.
+template <class T, std::size_t N, class Allocator>
+py::array copy_rows(const std::vector<std::array<T, N>, Allocator>& rows) {
+  py::array_t<T> array({static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(N)});
+  if (!rows.empty()) std::memcpy(array.mutable_data(), rows.data(), rows.size() * sizeof(rows[0]));
+  return read_only(std::move(array));
+}
+
 /// A read-only array of the values that a vector or matrix holds, without copying them.
 template <class Container>
 py::array give(Container&& values, std::vector<py::ssize_t> shape) {

@@ -39,13 +39,6 @@ std::pair<std::shared_ptr<Surface>, py::array> cut_open(const Surface& surface, 
   return {std::make_shared<Surface>(std::move(made.surface)), give(std::move(made.vertex_index))};
 }
 
-template <class T, std::size_t N, class Allocator>
-py::array copy_rows(const std::vector<std::array<T, N>, Allocator>& rows) {
-  py::array_t<T> result({py::ssize_t(rows.size()), py::ssize_t{N}});
-  std::copy_n(rows.data()->data(), result.size(), result.mutable_data());
-  return read_only(std::move(result));
-}
-
 // ((n,) vertices, (#T, 3) the copies at the corners of triangles)
 std::pair<py::array, py::array> parted_vertices(const Surface& surface, const Flags& is_cut) {
   auto made = mesh::parted_vertices(surface, flags(is_cut));

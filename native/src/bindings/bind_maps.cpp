@@ -27,14 +27,9 @@ using Complex = std::complex<double>;
 
 Eigen::Map<const uv::UvArray> corners(const Contiguous<double>& uv) { return {uv.data(), uv.shape(0), 2}; }
 
-uv::Frame frame(const mesh::Surface& surface, const Contiguous<double>& uv, double rotation, int threads) {
-  const py::gil_scoped_release unlocked;
-  Workers workers(threads);
-  return uv::frame(surface, corners(uv), rotation, workers);
-}
-
-Zeros zeros(const mesh::Surface& surface, const Contiguous<double>& uv, const std::vector<int>& poles) {
-  return zeros_of_map(surface, corners(uv), poles);
+std::pair<py::array, py::array> zeros(const mesh::Surface& surface, const Contiguous<double>& uv,
+                                      const std::vector<int>& poles) {
+  return zeros_by_columns(uv::zeros(surface, corners(uv), poles));
 }
 
 // The facade has checked shapes and types; `rows` is empty where row c is that of corner c.
@@ -95,17 +90,21 @@ py::array edge_weights(const mesh::Surface& surface) {
 
 void bind_uv_maps(py::module_& m) {
   using multiresolution::HarmonicMap;
-  py::class_<uv::Frame>(m, "Frame")
-      .def_readonly("low", &uv::Frame::low)
-      .def_readonly("high", &uv::Frame::high)
-      .def_readonly("area", &uv::Frame::area);
   py::class_<HarmonicMap>(m, "HarmonicMap")
       .def_property_readonly("moves", [](const HarmonicMap& map) { return copy(map.moves); })
       .def_readonly("solver", &HarmonicMap::solver);
   m.def("evened", &evened, py::arg("surface"), py::arg("uv"), py::kw_only(), py::arg("poles"), py::arg("u"),
         py::arg("v"), py::arg("evenness"), py::arg("solver"), py::arg("threads"), py::arg("progress"));
   m.def("zeros", &zeros, py::arg("surface"), py::arg("uv"), py::arg("poles"));
-  m.def("frame", &frame, py::arg("surface"), py::arg("uv"), py::arg("rotation"), py::arg("threads"));
+  m.def(
+      "frame",
+      [](const mesh::Surface& surface, const Contiguous<double>& uv, double rotation, int threads) {
+        const uv::Frame found = unlocked(threads, py::none(), [&](Execution& execution) {
+          return uv::frame(surface, corners(uv), rotation, execution.workers());
+        });
+        return std::tuple(found.low, found.high, found.area);
+      },
+      py::arg("surface"), py::arg("uv"), py::arg("rotation"), py::arg("threads"));
   m.def("place", &place, py::arg("uv"), py::arg("factor"), py::arg("origin"), py::arg("target"), py::arg("rows"),
         py::arg("placed"), py::arg("threads"));
   m.def("harmonic_map", &harmonic_map, py::arg("surface"), py::arg("corner_values"), py::arg("solver"),
@@ -159,8 +158,6 @@ void bind_plane_maps(py::module_& m) {
       .def("timings", [](const PlaneMap& map) { return map.seconds; });
   m.def("rectangle_map", &rectangle, py::arg("surface"), py::arg("corners"), py::arg("labels"), py::arg("solver"),
         py::arg("threads"), py::arg("progress"));
-  m.def("triangle_map", plane_map(&plane::triangle_map), py::arg("surface"), py::arg("solver"), py::arg("threads"),
-        py::arg("progress"));
   m.def("free_boundary_map", plane_map(&plane::free_boundary_map), py::arg("surface"), py::arg("solver"),
         py::arg("threads"), py::arg("progress"));
   m.def("quarter_corners", of_surface(&plane::quarter_corners), py::arg("surface"));
@@ -171,9 +168,6 @@ void bind_records(py::module_& m) {
   using structure::LevelReport;
   using structure::MemoryPlan;
   using structure::SolverReport;
-  py::class_<Zeros>(m, "Zeros")
-      .def_property_readonly("vertices", [](const Zeros& z) { return copy(z.vertices); })
-      .def_property_readonly("orders", [](const Zeros& z) { return copy(z.orders); });
   py::class_<Residuals>(m, "Residuals")
       .def_readonly("closedness", &Residuals::closedness)
       .def_readonly("harmonicity", &Residuals::harmonicity)

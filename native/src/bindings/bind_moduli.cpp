@@ -2,7 +2,10 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <array>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
@@ -21,6 +24,8 @@ namespace {
 using moduli::PeriodLattice;
 using SurfacePointer = std::shared_ptr<mesh::Surface>;
 
+constexpr std::array<const char*, 4> kVerdicts{"indistinguishable", "mirror_image", "not_equivalent", "undecided"};
+
 moduli::Comparison compare(const PeriodLattice& a, const PeriodLattice& b, double allowed, double needed,
                            const py::object& progress) {
   Execution execution(1, callback(progress));
@@ -28,11 +33,13 @@ moduli::Comparison compare(const PeriodLattice& a, const PeriodLattice& b, doubl
   return moduli::compare(a, b, allowed, needed, moduli::kMostSteps, execution);
 }
 
-moduli::Isometries isometries(const PeriodLattice& a, const PeriodLattice& b, int sign, double slack,
-                              const py::object& progress) {
-  Execution execution(1, callback(progress));
-  const py::gil_scoped_release unlocked;
-  return moduli::isometries(a, b, {sign, slack}, execution);
+/// Those that were found, and whether these are all.
+std::pair<std::vector<moduli::Isometry>, bool> isometries(const PeriodLattice& a, const PeriodLattice& b, int sign,
+                                                          double slack, const py::object& progress) {
+  moduli::Isometries made = unlocked(1, progress, [&](Execution& execution) {
+    return moduli::isometries(a, b, {sign, slack}, execution);
+  });
+  return {std::move(made.found), made.is_complete};
 }
 
 std::optional<moduli::Similarity> similarity(const mesh::Surface& a, const mesh::Surface& b, int sign,
@@ -135,22 +142,13 @@ class Continuation {
 
 void bind_equivalence(py::module_& m) {
   using moduli::Comparison;
-  using moduli::Isometries;
   using moduli::Isometry;
-  py::enum_<moduli::Verdict>(m, "Verdict")
-      .value("indistinguishable", moduli::Verdict::indistinguishable)
-      .value("mirror_image", moduli::Verdict::mirror_image)
-      .value("not_equivalent", moduli::Verdict::not_equivalent)
-      .value("undecided", moduli::Verdict::undecided);
   py::class_<Isometry>(m, "Isometry")
       .def_property_readonly("matrix", [](const Isometry& isometry) { return copy(isometry.matrix); })
-      .def_readonly("residual", &Isometry::residual)
-      .def_readonly("excess", &Isometry::excess);
-  py::class_<Isometries>(m, "Isometries")
-      .def_readonly("found", &Isometries::found)
-      .def_readonly("is_complete", &Isometries::is_complete);
+      .def_readonly("residual", &Isometry::residual);
   py::class_<Comparison>(m, "Comparison")
-      .def_readonly("verdict", &Comparison::verdict)
+      .def_property_readonly("verdict",
+                             [](const Comparison& made) { return kVerdicts[static_cast<std::size_t>(made.verdict)]; })
       .def_readonly("isometry", &Comparison::isometry)
       .def_readonly("sign", &Comparison::sign)
       .def_readonly("tolerance", &Comparison::tolerance)

@@ -1,15 +1,19 @@
 // Progressive meshes.
 #include <pybind11/stl.h>
 
-#include <cstring>
+#include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "mesh/corner_turns.h"
 #include "mesh/make_surface.h"
+#include "progressive/checks.h"
 #include "progressive/corner_values.h"
-#include "progressive/file_format.h"
 #include "progressive/progressive_mesh.h"
 #include "progressive/refinement.h"
 #include "progressive/simplify.h"
@@ -22,31 +26,38 @@ using progressive::ProgressiveMesh;
 using Pointer = std::shared_ptr<ProgressiveMesh>;
 using SurfacePointer = std::shared_ptr<mesh::Surface>;
 
-Pointer make(const mesh::Surface& surface, const std::string& order, const std::string& corner_type,
-             const py::bytes& corner_data, const std::vector<int>& kept, const py::object& progress_function) {
-  const std::string_view data = corner_data;
-  Execution execution(0, callback(progress_function));
-  const py::gil_scoped_release unlocked;
+Pointer make(const mesh::Surface& surface, const std::string& order, const std::vector<int>& kept,
+             const py::object& progress) {
   const auto which = order == "quadric" ? progressive::Order::quadric : progressive::Order::independent;
-  auto mesh = std::make_shared<ProgressiveMesh>(progressive_mesh(surface, which, execution, kept));
-  mesh->corner_type = corner_type;
-  mesh->corner_data.assign(data.begin(), data.end());
-  return mesh;
+  return unlocked(0, progress, [&](Execution& execution) {
+    return std::make_shared<ProgressiveMesh>(progressive_mesh(surface, which, execution, kept));
+  });
 }
 
-Pointer from_bytes(const py::bytes& bytes) {
-  const std::string_view data = bytes;
+/// Checks what the facade does not: it has looked at shapes.
+Pointer of_arrays(const Contiguous<int>& base_triangles, const Contiguous<int>& split_vertices,
+                  const Contiguous<std::uint8_t>& split_slots, const Contiguous<double>& positions,
+                  const Contiguous<int>& vertex_index, const Contiguous<int>& triangle_index,
+                  const Contiguous<int>& triangle_corners, const Contiguous<int>& face_offsets) {
+  auto mesh = std::make_shared<ProgressiveMesh>();
+  const auto base = rows<int, 3>(base_triangles), vertices = rows<int, 3>(split_vertices);
+  const auto slots = rows<std::uint8_t, 2>(split_slots);
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+    mesh->splits.push_back({vertices[k][0], vertices[k][1], vertices[k][2], slots[k][0], slots[k][1]});
+  mesh->positions = rows<double, 3>(positions);
+  mesh->vertex_index = values(vertex_index);
+  mesh->triangle_index = values(triangle_index);
+  mesh->triangle_corners = rows<int, 3>(triangle_corners);
+  mesh->face_offsets = values(face_offsets);
   const py::gil_scoped_release unlocked;
-  return std::make_shared<ProgressiveMesh>(progressive::from_bytes(data));
-}
-
-py::bytes to_bytes(const ProgressiveMesh& mesh) {
-  std::vector<char> bytes;
-  {
-    const py::gil_scoped_release unlocked;
-    bytes = progressive::to_bytes(mesh);
+  // The base has no isolated vertices.
+  std::size_t count = 0;
+  for (const mesh::Triple& triangle : base) {
+    for (const int v : triangle) count = std::max(count, static_cast<std::size_t>(std::max(v, 0)) + 1);
   }
-  return {bytes.data(), bytes.size()};
+  progressive::set_base(*mesh, base, count);
+  progressive::check(*mesh);
+  return mesh;
 }
 
 SurfacePointer level(const ProgressiveMesh& mesh, int splits) {
@@ -61,21 +72,19 @@ SurfacePointer restored(const ProgressiveMesh& mesh) {
   return std::make_shared<mesh::Surface>(mesh::make_surface(progressive::restored(mesh), execution));
 }
 
-/// Columns of the splits.
-struct Splits {
-  py::array v_s, v_l, v_r, slot_l, slot_r;
-};
+/// v_s, v_l, v_r of each split.
+py::array split_vertices(const ProgressiveMesh& mesh) {
+  std::vector<int> result;
+  result.reserve(3 * mesh.splits.size());
+  for (const progressive::Split& split : mesh.splits) result.insert(result.end(), {split.v_s, split.v_l, split.v_r});
+  return give(std::move(result), {std::ssize(mesh.splits), 3});
+}
 
-Splits splits(const ProgressiveMesh& mesh) {
-  const auto column = [&mesh](auto member) {
-    std::vector<int> values;
-    values.reserve(mesh.splits.size());
-    for (const auto& split : mesh.splits) values.push_back(split.*member);
-    return copy(values);
-  };
-  using progressive::Split;
-  return {column(&Split::v_s), column(&Split::v_l), column(&Split::v_r), column(&Split::slot_l),
-          column(&Split::slot_r)};
+py::array split_slots(const ProgressiveMesh& mesh) {
+  std::vector<std::uint8_t> result;
+  result.reserve(2 * mesh.splits.size());
+  for (const progressive::Split& split : mesh.splits) result.insert(result.end(), {split.slot_l, split.slot_r});
+  return give(std::move(result), {std::ssize(mesh.splits), 2});
 }
 
 std::vector<py::array> lift_loops(const ProgressiveMesh& mesh, int splits, const std::vector<std::vector<int>>& loops) {
@@ -90,9 +99,7 @@ std::vector<py::array> lift_loops(const ProgressiveMesh& mesh, int splits, const
 }
 
 /// The values at a level's corners, and the corners of the original whose data they have.
-struct LevelCorners {
-  py::array values, corners;
-};
+using LevelCorners = std::pair<py::array, py::array>;
 
 std::vector<LevelCorners> collapsed_corner_values(const ProgressiveMesh& mesh, const Contiguous<double>& array,
                                                   const std::vector<int>& splits, const std::vector<int>& turns) {
@@ -106,7 +113,7 @@ std::vector<LevelCorners> collapsed_corner_values(const ProgressiveMesh& mesh, c
   std::vector<LevelCorners> result;
   for (const auto& level : levels) {
     const py::array rows = copy(level.values).attr("reshape")(-1, width);
-    result.push_back({read_only(rows), copy(level.corners)});
+    result.emplace_back(read_only(rows), copy(level.corners));
   }
   return result;
 }
@@ -129,23 +136,13 @@ void bind_progressive_meshes(py::module_& m) {
   const auto viewed = [](auto member) {
     return [member](py::object self) { return view(self.cast<const ProgressiveMesh&>().*member, self); };
   };
-  py::class_<Splits>(m, "Splits")
-      .def_readonly("v_s", &Splits::v_s)
-      .def_readonly("v_l", &Splits::v_l)
-      .def_readonly("v_r", &Splits::v_r)
-      .def_readonly("slot_l", &Splits::slot_l)
-      .def_readonly("slot_r", &Splits::slot_r);
-  py::class_<LevelCorners>(m, "LevelCorners")
-      .def_readonly("values", &LevelCorners::values)
-      .def_readonly("corners", &LevelCorners::corners);
   py::class_<ProgressiveMesh, Pointer>(m, "ProgressiveMesh")
-      .def_static("make", &make, py::arg("surface"), py::arg("order"), py::arg("corner_type"), py::arg("corner_data"),
-                  py::arg("kept"), py::arg("progress"))
-      .def_static("from_bytes", &from_bytes, py::arg("bytes"))
-      .def("to_bytes", &to_bytes)
+      .def_static("make", &make, py::arg("surface"), py::arg("order"), py::arg("kept"), py::arg("progress"))
+      .def_static("of_arrays", &of_arrays, py::arg("base_triangles"), py::arg("split_vertices"), py::arg("split_slots"),
+                  py::arg("positions"), py::arg("vertex_index"), py::arg("triangle_index"), py::arg("triangle_corners"),
+                  py::arg("face_offsets"))
       .def("level", &level, py::arg("splits"))
       .def("restored", &restored)
-      .def("splits", &splits)
       .def("split_count", &progressive::split_count, py::arg("triangle_count"))
       .def(
           "vertex_map",
@@ -159,26 +156,18 @@ void bind_progressive_meshes(py::module_& m) {
             return copy(topology::base_half_edges(mesh.base, surface, map));
           },
           py::arg("surface"), py::arg("vertex_map"))
-      .def("original_corners",
-           [](const ProgressiveMesh& mesh) {
-             const auto corners = progressive::original_corners(mesh);
-             py::array_t<int> array({static_cast<py::ssize_t>(corners.size()), py::ssize_t{3}});
-             if (!corners.empty())
-               std::memcpy(array.mutable_data(), corners.data(), sizeof(corners[0]) * corners.size());
-             return read_only(std::move(array));
-           })
       .def_property_readonly("base_vertex_count", &ProgressiveMesh::base_vertex_count)
-      .def_property_readonly("vertex_count", &ProgressiveMesh::vertex_count)
-      .def_property_readonly("base_triangle_count",
-                             [](const ProgressiveMesh& mesh) { return mesh.base.triangles.size(); })
+      .def_property_readonly(
+          "base_triangles",
+          [](py::object self) { return view(self.cast<const ProgressiveMesh&>().base.triangles, self); })
+      .def_property_readonly("split_vertices", &split_vertices)
+      .def_property_readonly("split_slots", &split_slots)
+      .def_property_readonly("triangle_corners",
+                             [](const ProgressiveMesh& mesh) { return copy_rows(progressive::original_corners(mesh)); })
       .def_property_readonly("positions", viewed(&ProgressiveMesh::positions))
       .def_property_readonly("vertex_index", viewed(&ProgressiveMesh::vertex_index))
       .def_property_readonly("triangle_index", viewed(&ProgressiveMesh::triangle_index))
-      .def_property_readonly("face_offsets", viewed(&ProgressiveMesh::face_offsets))
-      .def_readonly("corner_type", &ProgressiveMesh::corner_type)
-      .def_property_readonly("corner_data", [](const ProgressiveMesh& mesh) {
-        return py::bytes(mesh.corner_data.data(), mesh.corner_data.size());
-      });
+      .def_property_readonly("face_offsets", viewed(&ProgressiveMesh::face_offsets));
 }
 
 }  // namespace holomorph::bindings

@@ -29,7 +29,7 @@ using Shared = std::shared_ptr<AnyStructure>;
 using MutableMap = std::shared_ptr<Map>;
 using MutablePart = std::shared_ptr<Part>;
 
-constexpr std::array<const char*, 7> kKinds{"forms", "strip", "log", "disk", "rectangle", "triangle", "flat"};
+constexpr std::array<const char*, 6> kKinds{"forms", "strip", "log", "disk", "rectangle", "flat"};
 
 MapKind kind_named(const std::string& name) {
   return static_cast<MapKind>(std::ranges::find(kKinds, name) - kKinds.begin());
@@ -209,14 +209,15 @@ void bind_map_objects(py::module_& m) {
       .def("raise_refusal", [](const Made& made) {
         if (made.refused) std::rethrow_exception(made.refused);
       });
-  py::class_<MappedParts>(m, "MappedParts")
-      .def_readonly("parts", &MappedParts::parts)
-      .def_readonly("size", &MappedParts::size);
   m.def(
       "map_objects",
       [](const std::vector<std::vector<Request>>& objects, const SizePolicy& size, int threads,
          const py::object& progress) {
-        return unlocked(threads, progress, [&](Execution& execution) { return map_objects(objects, size, execution); });
+        std::vector<std::pair<std::vector<Made>, SizePolicy>> result;
+        for (MappedParts& made :
+             unlocked(threads, progress, [&](Execution& execution) { return map_objects(objects, size, execution); }))
+          result.emplace_back(std::move(made.parts), made.size);
+        return result;
       },
       "objects"_a, "size"_a, py::kw_only(), "threads"_a, "progress"_a);
   m.def(

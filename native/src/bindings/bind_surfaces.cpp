@@ -2,8 +2,13 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
@@ -153,11 +158,26 @@ py::array edge_distances(const Surface& surface, const Contiguous<double>& lengt
   }));
 }
 
+// (reason, vertices, edges, faces) of each.
+std::vector<std::tuple<std::string, py::array, py::array, py::array>> cuts(const Part& part) {
+  constexpr std::array<const char*, 6> kReasons{"many_faces", "twice", "opposite", "one_sided", "repeated", "touching"};
+  std::vector<std::tuple<std::string, py::array, py::array, py::array>> result;
+  for (const mesh::Cut& cut : part.cuts) {
+    result.emplace_back(kReasons[static_cast<std::size_t>(cut.reason)], copy(cut.vertices), copy_rows(cut.edges),
+                        copy(cut.faces));
+  }
+  return result;
+}
+
+// (faces, reason) of each.
+std::vector<std::pair<py::array, std::string>> refused(const Part& part) {
+  std::vector<std::pair<py::array, std::string>> result;
+  for (const mesh::RefusedFaces& each : part.refused) result.emplace_back(copy(each.faces), each.reason);
+  return result;
+}
+
 // What reading and splitting give.
 void bind_parts(py::module_& m) {
-  using mesh::Cut;
-  using mesh::CutReason;
-  using mesh::RefusedFaces;
   using mesh::TopologicalType;
   py::class_<TopologicalType>(m, "TopologicalType")
       .def(py::init([](int genus, int boundary_count) {
@@ -167,32 +187,17 @@ void bind_parts(py::module_& m) {
       .def_readonly("genus", &TopologicalType::genus)
       .def_readonly("boundary_count", &TopologicalType::boundary_count)
       .def("text", &TopologicalType::text);
-  py::class_<RefusedFaces>(m, "RefusedFaces")
-      .def_property_readonly("faces", [](const RefusedFaces& refused) { return copy(refused.faces); })
-      .def_readonly("reason", &RefusedFaces::reason);
-  py::enum_<CutReason>(m, "CutReason")
-      .value("many_faces", CutReason::kManyFaces)
-      .value("twice", CutReason::kTwice)
-      .value("opposite", CutReason::kOpposite)
-      .value("one_sided", CutReason::kOneSided)
-      .value("repeated", CutReason::kRepeated)
-      .value("touching", CutReason::kTouching);
-  py::class_<Cut>(m, "Cut")
-      .def_readonly("reason", &Cut::reason)
-      .def_property_readonly("vertices", [](const Cut& cut) { return copy(cut.vertices); })
-      .def_property_readonly("edges", [](const py::object& self) { return view(self.cast<const Cut&>().edges, self); })
-      .def_property_readonly("faces", [](const Cut& cut) { return copy(cut.faces); });
   py::class_<Part>(m, "Part")
       .def_readonly("surface", &Part::surface)
       .def_readonly("vertex_index", &Part::vertex_index)
       .def_readonly("face_index", &Part::face_index)
       .def_readonly("corner_index", &Part::corner_index)
       .def_readonly("given_vertex_count", &Part::given_vertex_count)
-      .def_readonly("cuts", &Part::cuts)
+      .def_property_readonly("cuts", &cuts)
       .def_property_readonly(
           "joined_vertices",
           [](const py::object& self) { return view(self.cast<const Part&>().joined_vertices, self); })
-      .def_readonly("refused", &Part::refused)
+      .def_property_readonly("refused", &refused)
       .def_property_readonly(
           "repeated_corners",
           [](const py::object& self) { return view(self.cast<const Part&>().repeated_corners, self); })
@@ -262,7 +267,6 @@ void bind_surfaces(py::module_& m) {
            })
       .def_readonly("component_count", &Surface::component_count)
       .def_readonly("vertex_count", &Surface::vertex_count)
-      .def_readonly("polygon_edge_count", &Surface::polygon_edge_count)
       .def_property_readonly("intrinsic", &Surface::intrinsic)
       .def_property_readonly("vertices", polygons(&mesh::Polygons::vertices))
       .def_property_readonly("corner_vertices", polygons(&mesh::Polygons::corner_vertices))
@@ -271,7 +275,6 @@ void bind_surfaces(py::module_& m) {
       .def_property_readonly("triangle_corners", viewed(&Surface::triangle_corners))
       .def_property_readonly("triangle_edges", viewed(&Surface::triangle_edges))
       .def_property_readonly("triangle_faces", viewed(&Surface::triangle_faces))
-      .def_property_readonly("face_component", viewed(&Surface::face_component))
       .def_property_readonly("edges", viewed(&Surface::edges))
       .def_property_readonly("edge_lengths", viewed(&Surface::edge_lengths))
       .def_property_readonly("reversed_faces", repairs(&mesh::Repairs::reversed_faces))

@@ -67,22 +67,6 @@ TileOptions tile_options(double tiles, double evenness, std::optional<int> count
   return result;
 }
 
-template <std::size_t N>
-py::array integers(const std::vector<std::array<std::int64_t, N>>& rows) {
-  py::array_t<std::int64_t> result({static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(N)});
-  if (!rows.empty()) std::memcpy(result.mutable_data(), rows.data(), rows.size() * sizeof(rows[0]));
-  return read_only(std::move(result));
-}
-
-Zeros by_columns(const std::vector<uv::Zero>& zeros) {
-  Zeros result;
-  for (const auto& [vertex, order] : zeros) {
-    result.vertices.push_back(vertex);
-    result.orders.push_back(order);
-  }
-  return result;
-}
-
 void bind_tilings_of_parts(py::module_& m) {
   py::class_<choice::Part, std::shared_ptr<choice::Part>>(m, "WholePart")
       .def(py::init(&part), "surface"_a, "up"_a, "labels"_a);
@@ -99,10 +83,10 @@ void bind_tilings_of_parts(py::module_& m) {
       .def_readonly("lattice", &SeamlessMap::lattice)
       .def_property_readonly("seams",
                              [](const py::object& self) { return view(self.cast<const SeamlessMap&>().seams, self); })
-      .def_property_readonly("periods", [](const SeamlessMap& made) { return integers(made.periods); })
+      .def_property_readonly("periods", [](const SeamlessMap& made) { return copy_rows(made.periods); })
       .def_property_readonly("poles", [](const SeamlessMap& made) { return copy(made.poles); })
       .def_property_readonly("residues", [](const SeamlessMap& made) { return copy(made.residues); })
-      .def_property_readonly("zeros", [](const SeamlessMap& made) { return by_columns(made.zeros); })
+      .def_property_readonly("zeros", [](const SeamlessMap& made) { return zeros_by_columns(made.zeros); })
       .def_readonly("added_distortion", &SeamlessMap::added_distortion)
       .def_readonly("beltrami_rms", &SeamlessMap::beltrami_rms)
       .def_readonly("optimal_size_range", &SeamlessMap::optimal_size_range)
@@ -114,7 +98,7 @@ void bind_tilings_of_parts(py::module_& m) {
       .def_readonly("turns", &SeamlessMap::turns)
       .def_property_readonly("cones", [](const SeamlessMap& made) { return copy(made.cones); })
       .def_property_readonly("cone_angles", [](const SeamlessMap& made) { return copy(made.cone_angles); })
-      .def_property_readonly("jumps", [](const SeamlessMap& made) { return integers(made.jumps); })
+      .def_property_readonly("jumps", [](const SeamlessMap& made) { return copy_rows(made.jumps); })
       .def_property_readonly("lines", [](const SeamlessMap& made) { return name_of(made.rows); });
 }
 
@@ -161,49 +145,7 @@ void bind_tiler(py::module_& m) {
           "tiling"_a, "options"_a, py::kw_only(), "threads"_a, "progress"_a);
 }
 
-std::unique_ptr<turns::TurnedTiler> turned_tiler(const std::shared_ptr<mesh::Surface>& surface, int turns,
-                                                 std::optional<std::array<double, 3>> direction, bool is_of_u,
-                                                 const std::string& up, const std::string& lines,
-                                                 const Contiguous<int>& marked, std::vector<int> chosen, double price) {
-  turns::TilerOptions options{turns, {}, up_axis(up), rows_named(lines), rows<int, 2>(marked), std::move(chosen),
-                              price};
-  if (direction) options.along = turns::Along{*direction, is_of_u};
-  return unlocked(1, py::none(), [&](Execution& execution) {
-    return std::make_unique<turns::TurnedTiler>(surface, options, execution);
-  });
-}
-
-turns::TurnedTiling turned_tiling(turns::TurnedTiler& tiler, std::optional<double> tiles, double evenness, int threads,
-                                  const py::object& progress) {
-  return unlocked(threads, progress, [&](Execution& execution) {
-    return tiler.tile(tiles.value_or(tiler.usual_tiles()), evenness, execution);
-  });
-}
-
-// (#S, 4) edges, turns and translations
-py::array jumps(const turns::TurnedTiling& made) {
-  Eigen::Matrix<std::int64_t, Eigen::Dynamic, 4, Eigen::RowMajor> result(std::ssize(made.map.jumps), 4);
-  for (Eigen::Index i = 0; i < result.rows(); ++i) {
-    const turns::Jump& jump = made.map.jumps[i];
-    result.row(i) << jump.edge, jump.turn, jump.translation[0], jump.translation[1];
-  }
-  return give_matrix(std::move(result));
-}
-
 void bind_turned_tiling(py::module_& m) {
-  using turns::TurnedTiling;
-  py::class_<TurnedTiling>(m, "TurnedTiling")
-      .def("uv", [](const TurnedTiling& made) { return copy(made.map.uv); })
-      .def("jumps", &jumps)
-      .def("cones", [](const TurnedTiling& made) { return copy(made.map.cones); })
-      .def("missing", [](const TurnedTiling& made) { return copy(made.map.missing); })
-      .def("has_lines", [](const TurnedTiling& made) { return made.rows != turns::Rows::kNone; })
-      .def_readonly("quality", &TurnedTiling::quality);
-  py::class_<turns::TurnedTiler>(m, "TurnedTiler")
-      .def(py::init(&turned_tiler), "surface"_a, py::kw_only(), "turns"_a, "direction"_a, "is_of_u"_a, "up"_a,
-           "lines"_a, "marked"_a, "chosen"_a, "price"_a = turns::TilerOptions().price)
-      .def("usual_tiles", &turns::TurnedTiler::usual_tiles)
-      .def("tile", &turned_tiling, "tiles"_a, py::kw_only(), "evenness"_a, "threads"_a, "progress"_a);
   m.def(
       "found_lines",
       [](const mesh::Surface& surface, const Contiguous<int>& marked) {
@@ -300,9 +242,7 @@ py::array crossings(const Contiguous<double>& vertices, const Contiguous<int>& t
     Execution execution(threads);
     pairs = mesh::self_intersections(points, corners, execution);
   }
-  py::array_t<int> result({static_cast<py::ssize_t>(pairs.size()), py::ssize_t{2}});
-  if (!pairs.empty()) std::memcpy(result.mutable_data(), pairs.data(), pairs.size() * sizeof(mesh::Pair));
-  return read_only(std::move(result));
+  return copy_rows(pairs);
 }
 
 // A view of a list.

@@ -19,19 +19,14 @@ struct Residuals {
   double closedness = 0, harmonicity = 0, periods = 0, pairing = 0, asymmetry = 0;
 };
 
-/// The zeros of a form by columns.
-struct Zeros {
+/// The vertices and the orders of the zeros of a form.
+inline std::pair<py::array, py::array> zeros_by_columns(const std::vector<uv::Zero>& zeros) {
   std::vector<int> vertices, orders;
-};
-
-inline Zeros zeros_of_map(const mesh::Surface& surface, const Eigen::Ref<const uv::UvArray>& uv,
-                          const std::vector<int>& poles) {
-  Zeros found;
-  for (const auto& [vertex, order] : uv::zeros(surface, uv, poles)) {
-    found.vertices.push_back(vertex);
-    found.orders.push_back(order);
+  for (const auto& [vertex, order] : zeros) {
+    vertices.push_back(vertex);
+    orders.push_back(order);
   }
-  return found;
+  return {copy(vertices), copy(orders)};
 }
 
 /// "whole", "free", "mirror" or "none".

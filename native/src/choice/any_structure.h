@@ -13,8 +13,8 @@
 namespace holomorph::choice {
 
 /// What the maps of a structure are: combinations of holomorphic forms, a strip of an annulus, with poles; or one fixed
-/// map of a disk, round, to a rectangle or a triangle, or with a free boundary.
-enum class MapKind { kForms, kStrip, kLog, kDisk, kRectangle, kTriangle, kFlat };
+/// map of a disk, round, to a rectangle, or with a free boundary.
+enum class MapKind { kForms, kStrip, kLog, kDisk, kRectangle, kFlat };
 
 /// A structure with the maps that it gives. Several threads may use it at once.
 class AnyStructure {

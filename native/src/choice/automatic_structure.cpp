@@ -66,7 +66,7 @@ StructurePointer disk_structure(const PartPointer& part, const Options& options,
     solved = with_poles(part, options, execution);
   } catch (const TopologyError&) {  // every vertex is next to the boundary
     if (has_four_sides) return without_inner_vertices(part, options, execution);
-    return plane_structure(MapKind::kTriangle, part, plane::triangle_map(surface, options, execution));
+    return plane_structure(MapKind::kFlat, part, plane::free_boundary_map(surface, options, execution));
   }
   StructurePointer best = std::make_shared<Forms>(MapKind::kDisk, part, solved);
   double least = density_ratio(*best, execution);

@@ -126,6 +126,4 @@ MatrixXcd inverse(const MatrixXcd& A) { return A.inverse(); }
 double determinant(const MatrixXd& A) { return A.determinant(); }
 std::complex<double> determinant(const MatrixXcd& A) { return A.determinant(); }
 
-VectorXd least_squares(const MatrixXd& A, const VectorXd& b) { return A.householderQr().solve(b); }
-
 }  // namespace holomorph::linear

@@ -59,7 +59,4 @@ Eigen::MatrixXcd inverse(const Eigen::MatrixXcd& A);
 double determinant(const Eigen::MatrixXd& A);
 std::complex<double> determinant(const Eigen::MatrixXcd& A);
 
-/// The x with least |A x - b|, by QR. @pre full column rank
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
-
 }  // namespace holomorph::linear

@@ -17,7 +17,6 @@ struct Mirror {
 
 /// Finds the mirror of a surface in a plane between x and -x, or y, or z, whichever are not up, through the middle of
 /// its box. None where there is none, polygons lie across it, no vertex lies in it, or the surface has no positions.
-/// (mesh/triangle_tree.h finds planes in which a surface mirrors itself about.)
 /// @param up index of the axis that points up. Cost: O(#C log #C)
 std::optional<Mirror> mirror(const Surface& surface, int up);
 

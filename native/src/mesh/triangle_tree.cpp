@@ -8,8 +8,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "linear/dense.h"
-
 namespace holomorph::mesh {
 
 namespace {
@@ -69,30 +67,11 @@ std::vector<int> spatial_order(const std::vector<Point>& points) {
 
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int kLeaf = 4;        // triangles at most in a leaf
 constexpr int kDeepest = 64;    // the tree is balanced
 constexpr double kEdge = 1e-9;  // barycentric: a ray through an edge meets both triangles rather than none
-
-double squared_distance(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
-  const Vector3d along = b - a;
-  const double square = along.squaredNorm();
-  const double t = square > 0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0.0;
-  return (p - a - t * along).squaredNorm();
-}
-
-double squared_distance(const Vector3d& p, const std::array<Vector3d, 3>& corners) {
-  const auto& [a, b, c] = corners;
-  const Vector3d normal = (b - a).cross(c - a);
-  if (const double square = normal.squaredNorm(); square > 0) {
-    const bool inside = (b - a).cross(p - a).dot(normal) >= 0 && (c - b).cross(p - b).dot(normal) >= 0 &&
-                        (a - c).cross(p - c).dot(normal) >= 0;
-    if (inside) return (p - a).dot(normal) * (p - a).dot(normal) / square;
-  }
-  return std::min({squared_distance(p, a, b), squared_distance(p, b, c), squared_distance(p, c, a)});
-}
 
 // Möller and Trumbore 1997.
 bool meets_triangle(const Vector3d& start, const Vector3d& direction, double begin,
@@ -114,50 +93,6 @@ bool meets_box(const Vector3d& start, const Vector3d& inverse, const Eigen::Alig
     to = std::min(to, std::max(a, b));
   }
   return from <= to;
-}
-
-constexpr double kFarthest = 0.01;  // an image may be from the surface, in square roots of the area
-constexpr int kImages = 500;        // at most, that are looked at
-constexpr double kBetter = 0.9;     // an earlier plane stays where a later one is not nearer than this part
-
-struct Moments {
-  double area = 0;
-  Vector3d first = Vector3d::Zero();
-  Matrix3d second = Matrix3d::Zero();
-};
-
-// Integrals of 1, x and x x^T over the area.
-Moments moments(const Surface& surface) {
-  Moments sum;
-  for (const Triple& t : surface.triangles) {
-    std::array<Vector3d, 3> p;
-    for (int i = 0; i < 3; ++i) p[i] = Vector3d(surface.polygons.vertices[t[i]].data());
-    const Vector3d total = p[0] + p[1] + p[2];
-    const double area = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
-    sum.area += area;
-    sum.first += area / 3 * total;
-    // The integral of x x^T over a triangle is area / 12 (s s^T + sum of p p^T), s the sum of its corners p.
-    sum.second += area / 12 * (total * total.transpose());
-    for (const Vector3d& corner : p) sum.second += area / 12 * (corner * corner.transpose());
-  }
-  return sum;
-}
-
-// The mean of the squared distances of images from the surface; infinite if one is farther than `farthest`.
-double mean_square(const Surface& surface, const TriangleTree& tree, const MirrorPlane& plane, double farthest) {
-  const auto& vertices = surface.polygons.vertices;
-  const auto count = std::min<std::size_t>(kImages, vertices.size());
-  const auto step = static_cast<double>(vertices.size()) / static_cast<double>(count);
-  double sum = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    // Spread by the golden ratio, so that a surface that is not an image of its own is known after a few.
-    const double part = std::fmod(static_cast<double>(i) * std::numbers::phi, 1.0);
-    const auto v = std::min(vertices.size() - 1, static_cast<std::size_t>(part * step * static_cast<double>(count)));
-    const double distance = tree.nearest(plane.image(Vector3d(vertices[v].data()))).second;
-    if (distance > farthest) return INFINITY;
-    sum += distance * distance;
-  }
-  return sum / static_cast<double>(count);
 }
 
 }  // namespace
@@ -191,31 +126,6 @@ void TriangleTree::build(std::size_t node, int first, int end) {
   for (int i = first; i < end; ++i) {
     for (const Vector3d& p : corners_[i]) nodes_[node].box.extend(p);
   }
-}
-
-std::pair<int, double> TriangleTree::nearest(const Vector3d& point) const {
-  std::pair<int, double> best{-1, std::numeric_limits<double>::infinity()};
-  std::array<std::size_t, kDeepest> stack;
-  std::size_t height = 0;
-  stack[height++] = 0;
-  while (height > 0) {
-    const std::size_t n = stack[--height];
-    const Node& node = nodes_[n];
-    if (node.box.squaredExteriorDistance(point) >= best.second) continue;
-    if (node.end - node.first <= kLeaf) {
-      for (int i = node.first; i < node.end; ++i) {
-        if (const double d = squared_distance(point, corners_[i]); d < best.second) best = {i, d};
-      }
-      continue;
-    }
-    const std::size_t low = 2 * n + 1, high = 2 * n + 2;
-    // The nearer child is popped first: it lowers the bound that may exclude the other.
-    const bool low_first =
-        nodes_[low].box.squaredExteriorDistance(point) <= nodes_[high].box.squaredExteriorDistance(point);
-    stack[height++] = low_first ? high : low;
-    stack[height++] = low_first ? low : high;
-  }
-  return {order_[best.first], std::sqrt(best.second)};
 }
 
 void TriangleTree::find_near(const Eigen::AlignedBox3d& box, std::vector<int>& found) const {
@@ -254,27 +164,6 @@ bool TriangleTree::meets(const Vector3d& start, const Vector3d& direction, doubl
     }
   }
   return false;
-}
-
-std::optional<MirrorPlane> mirror_plane(const Surface& surface, const TriangleTree& tree) {
-  const Moments sum = moments(surface);
-  if (!(sum.area > 0)) return std::nullopt;
-  const Vector3d centroid = sum.first / sum.area;
-  const Matrix3d spread = sum.second / sum.area - centroid * centroid.transpose();
-  Eigen::Matrix<double, 3, 6> axes;
-  // A plane of symmetry goes through the centroid, across an axis of inertia. On a round shape those are arbitrary: the
-  // axes of space are tried first.
-  axes << Matrix3d::Identity(), linear::eigenvectors(spread);
-  std::optional<MirrorPlane> best;
-  double least = INFINITY;
-  for (const auto& axis : axes.colwise()) {
-    const MirrorPlane plane{centroid, axis};
-    const double distance = mean_square(surface, tree, plane, kFarthest * std::sqrt(sum.area));
-    if (!(distance < kBetter * least)) continue;
-    best = plane;
-    least = distance;
-  }
-  return best;
 }
 
 }  // namespace holomorph::mesh

@@ -1,12 +1,10 @@
-// A tree of triangles for the nearest point of a surface, and the plane of symmetry found with it.
+// A tree of triangles, for rays and boxes that meet them.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
-#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "mesh/surface.h"
@@ -23,10 +21,6 @@ class TriangleTree {
   /// @pre there are positions, which are copied, and a triangle. Cost: O(#T log #T)
   explicit TriangleTree(const Surface& surface) : TriangleTree(surface.polygons.vertices, surface.triangles) {}
   TriangleTree(std::span<const std::array<double, 3>> vertices, std::span<const Triple> triangles);
-
-  /// Finds the triangle nearest to a point, and its distance; of several, the first along the curve of `spatial_order`.
-  /// Cost: O(log #T) near the surface
-  std::pair<int, double> nearest(const Eigen::Vector3d& point) const;
 
   /// Whether a ray, of any length, meets a triangle farther than `begin` times the direction from where it starts.
   bool meets(const Eigen::Vector3d& start, const Eigen::Vector3d& direction, double begin) const;
@@ -47,18 +41,5 @@ class TriangleTree {
   std::vector<Corners> corners_;  // in that order
   std::vector<Node> nodes_;       // children of node n: 2 n + 1 and 2 n + 2
 };
-
-struct MirrorPlane {
-  Eigen::Vector3d point, normal;  ///< |normal| = 1
-
-  double height(const Eigen::Vector3d& p) const { return normal.dot(p - point); }
-  Eigen::Vector3d image(const Eigen::Vector3d& p) const { return p - 2 * height(p) * normal; }
-};
-
-/// Finds the plane through the centroid in which images of vertices are nearest to the surface. Its normal is an axis
-/// of space, or an axis of inertia of the area. None where an image is farther from the surface than a hundredth of the
-/// root of the area.
-/// @param tree of the surface. @pre the surface has positions. Cost: O(#T)
-std::optional<MirrorPlane> mirror_plane(const Surface& surface, const TriangleTree& tree);
 
 }  // namespace holomorph::mesh

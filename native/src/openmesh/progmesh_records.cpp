@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "progressive/file_format.h"
+#include "progressive/checks.h"
 
 namespace holomorph::openmesh {
 namespace {

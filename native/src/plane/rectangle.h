@@ -1,4 +1,4 @@
-// Maps to rectangles, and of a disk with three corners to a triangle.
+// Maps to rectangles.
 #pragma once
 
 #include <vector>
@@ -25,12 +25,5 @@ namespace holomorph::plane {
 /// Cost: four solves, of four matrices; two where no edge is flipped.
 PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& corners, const std::vector<int>& labels,
                        const Options& options, Execution& execution);
-
-/// Computes the harmonic map to the triangle with the lengths of the three boundary edges, scaled so that its longest
-/// side is 1. It is counter-clockwise, with the lowest boundary vertex at 0 and the next one on the real axis. A single
-/// triangle is mapped to itself.
-/// @pre a disk
-/// @throws TopologyError for a boundary of more than three edges; SolverError; Cancelled
-PlaneMap triangle_map(const mesh::Surface& surface, const Options& options, Execution& execution);
 
 }  // namespace holomorph::plane

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "mesh/surface.h"
@@ -33,8 +32,6 @@ struct ProgressiveMesh {
   std::vector<int> triangle_index;               ///< #T in the original surface's triangulation
   std::vector<Triple> triangle_corners;          ///< #T polygon corners; empty: triangle t has 3t, 3t+1, 3t+2
   std::vector<int> face_offsets;                 ///< offsets of the original polygons; empty: all are triangles
-  std::string corner_type;                       ///< what one row of corner_data is, in the caller's words
-  std::vector<char> corner_data;                 ///< rows of equal size, one for each polygon corner
 
   int base_vertex_count() const { return base.vertex_count; }
   int vertex_count() const { return base.vertex_count + static_cast<int>(splits.size()); }  ///< without isolated ones

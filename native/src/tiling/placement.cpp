@@ -8,14 +8,12 @@ namespace {
 
 // Transfers the form from the level to the surface: the same residues, and the c_j with which it fits best as a vector
 // field in space. Then both are optimised on the surface.
-// @param greens of the level; afterwards of the surface. @param mirror the same
-MeromorphicForm transferred(MeromorphicForm form, GreensFunctions& greens, std::optional<Mirror>& mirror,
-                            const CoarseLevel& level, std::shared_ptr<const mesh::Surface> surface,
-                            uv::Coefficients kind, const PoleOptions& options, const Placement* like,
-                            Execution& execution) {
+// @param greens of the level; afterwards of the surface
+MeromorphicForm transferred(MeromorphicForm form, GreensFunctions& greens, const CoarseLevel& level,
+                            std::shared_ptr<const mesh::Surface> surface, uv::Coefficients kind,
+                            const PoleOptions& options, const Placement* like, Execution& execution) {
   const VectorXcd wanted = samples_of(form, greens);
   const MatrixXcd frames = uv::tangent_frames(*level.surface, greens.basis().samples());
-  const std::vector<int> level_poles = form.poles;
   for (int& v : form.poles) v = level.vertex[v];
   const bool is_whole = level.is_whole(*surface);
   std::shared_ptr<const PoleBasis> own;
@@ -28,23 +26,21 @@ MeromorphicForm transferred(MeromorphicForm form, GreensFunctions& greens, std::
         std::make_shared<const PoleBasis>(std::move(surface), options.solving, greens.shared_basis(), level, execution);
   greens = is_whole ? GreensFunctions(std::move(own)) : std::move(greens).on(std::move(own));
   const PoleBasis& basis = greens.basis();
-  if (mirror) mirror = mirror_of_poles(*mirror, level_poles, basis, options.allowed, form.poles);
   greens.solve_at(form.poles, execution);
   if (basis.form_count() > 0) {
     form.coefficients =
         fitted_coefficients(wanted, frames, basis.holomorphic().M, greens.at(form.poles) * form.residues,
                             uv::tangent_frames(basis.surface(), basis.samples()), kind == uv::Coefficients::real);
   }
-  return optimised(greens, kind, mirror ? &*mirror : nullptr, std::move(form), execution);
+  return optimised(greens, kind, std::move(form), execution);
 }
 
 // Makes the placement. It keeps the Green's functions of the poles alone, and drops those of the search.
 Placement placement(PoleOptions options, uv::Coefficients kind, const GreensFunctions& greens, MeromorphicForm form,
-                    std::optional<Mirror> mirror, PlacementStart start, const Placement* like, Execution& execution) {
+                    PlacementStart start, const Placement* like, Execution& execution) {
   const auto& basis = greens.shared_basis();
   const double ratio = density_ratio(density(form, greens));
-  Placement result{std::move(options), basis,           kind, GreensFunctions(basis), std::move(form), ratio,
-                   std::move(mirror),  std::move(start)};
+  Placement result{std::move(options), basis, kind, GreensFunctions(basis), std::move(form), ratio, std::move(start)};
   if (basis->has_jacobian())
     result.inversion = like ? like->inversion : std::make_shared<const JacobiInversion>(*basis, execution);
   result.greens.solve_at(result.form.poles, execution);
@@ -77,9 +73,7 @@ Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions option
   PlacementStart start = like ? like->start : started(surface, options, execution);
   const CoarseLevel& level = start.level;
   GreensFunctions greens(start.basis);
-  std::optional<Mirror> plane = options.is_chosen() ? std::nullopt : mirror(greens.basis());
-  PlaceOptions place_options{
-      kind, {}, options.vertices, level.large_polygons, plane ? &*plane : nullptr, options.evened, start.balanced};
+  PlaceOptions place_options{kind, {}, options.vertices, level.large_polygons, options.evened, start.balanced};
   // Where poles are allowed, in the numbers of the level.
   for (const int v : level.vertex) {
     if (!options.allowed.empty()) place_options.allowed.push_back(options.allowed[v]);
@@ -88,11 +82,9 @@ Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions option
   MeromorphicForm form = options.count ? placed_poles(greens, place_options, *options.count, execution)
                                        : placed_poles(greens, place_options, execution);
   execution.stage("forms of the surface", 0.6, 1.0);
-  if (!place_options.mirror) plane.reset();
   if (level.surface != surface)
-    form = transferred(std::move(form), greens, plane, level, surface, kind, options, like, execution);
-  Placement result =
-      placement(std::move(options), kind, greens, std::move(form), std::move(plane), std::move(start), like, execution);
+    form = transferred(std::move(form), greens, level, surface, kind, options, like, execution);
+  Placement result = placement(std::move(options), kind, greens, std::move(form), std::move(start), like, execution);
   execution.finish();
   return result;
 }

@@ -10,7 +10,6 @@
 #include "tiling/inversion/jacobi_inversion.h"
 #include "tiling/maps/assemble.h"
 #include "tiling/poles/meromorphic_form.h"
-#include "tiling/poles/mirror.h"
 #include "tiling/poles/pole_candidates.h"
 
 namespace holomorph::tiling {
@@ -43,7 +42,6 @@ struct Placement {
   GreensFunctions greens;                  ///< at the poles
   MeromorphicForm form;                    ///< the most even one with these poles, before its periods are rounded
   double optimal_density_ratio = 1;        ///< 95 % over 5 % quantile of its density
-  std::optional<Mirror> mirror;            ///< of the poles, where the form is its own mirror image
   PlacementStart start;
   std::shared_ptr<const JacobiInversion> inversion = nullptr;  ///< on a closed surface with handles, else null
   /// The maps of the last tiling, reused by the next one with the same poles.

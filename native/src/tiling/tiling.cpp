@@ -115,25 +115,6 @@ Tiling with_evenness(std::shared_ptr<const ConformalTiling> conformal, double ev
   return result;
 }
 
-// Searches for roundings that are their own mirror image or, without any, for all. @param problem becomes the mirrored
-// one if those are found
-std::pair<std::vector<Rounding>, RoundingRecord> roundings(const Placement& placement, RoundingProblem& problem,
-                                                           const RoundingOptions& options, Execution& execution) {
-  RoundingOptions for_mirror = options;
-  if (auto own =
-          placement.mirror ? mirrored(problem, placement.form.poles, *placement.mirror, for_mirror) : std::nullopt) {
-    const RoundingSearch search(*own, for_mirror, execution);
-    if (std::vector<Rounding> list = search.best(); !list.empty()) {
-      problem = *std::move(own);
-      return {std::move(list), search.record()};
-    }
-  }
-  const RoundingSearch search(problem, options, execution);
-  std::vector<Rounding> list = search.best();
-  if (list.empty()) refuse(problem, search);
-  return {std::move(list), search.record()};
-}
-
 }  // namespace
 
 Tiling tile(const Placement& placement, const TilingOptions& options, Execution& execution) {
@@ -153,10 +134,12 @@ Tiling tile(const Placement& placement, const TilingOptions& options, Execution&
     problem.repairable =
         kReach * kReach * basis.area() * inversion->reach(placement.form.poles, placement.form.residues);
   }
-  const auto [list, record] = roundings(placement, problem, rounding_options(placement, options), execution);
+  const RoundingSearch search(problem, rounding_options(placement, options), execution);
+  const std::vector<Rounding> list = search.best();
+  if (list.empty()) refuse(problem, search);
   Candidate best = best_candidate(placement, problem, list, lifted, execution);
   execution.stage("poles at their places", 0.4, 0.6);
-  RoundedForm form{std::make_shared<const RoundingProblem>(std::move(problem)), std::move(best), record};
+  RoundedForm form{std::make_shared<const RoundingProblem>(std::move(problem)), std::move(best), search.record()};
   auto conformal = std::make_shared<const ConformalTiling>(conformal_tiling(placement, std::move(form), execution));
   return with_evenness(std::move(conformal), options.evenness, 0.6, execution);
 }

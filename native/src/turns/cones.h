@@ -17,8 +17,9 @@ struct Cones {
 };
 
 struct ConeOptions {
-  int k = 4;                   ///< the map may turn by k-th parts of a full turn
-  double price = 0.0001;       ///< of a cone of one k-th turn that is hidden; up to six times as much where it is seen
+  int k = 4;              ///< the map may turn by k-th parts of a full turn
+  double price = 0.0001;  ///< of a cone of one k-th turn that is hidden, up to six times as much where it is seen: what
+                          ///< it is to take off the mean square of the logarithm of the scale
   std::optional<Along> along;  ///< none: any direction
   /// Cones are about as far apart as centres of turns are where there are so many tiles.
   double tiles = 400;

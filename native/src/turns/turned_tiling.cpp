@@ -74,7 +74,7 @@ TurnedTiler::TurnedTiler(std::shared_ptr<const mesh::Surface> surface, const Til
   const bool are_whole = options_.rows == Rows::kWhole || options_.rows == Rows::kMirror;
   if (lines.empty()) options_.rows = Rows::kNone;
   maps_.emplace(half_ ? half_->surface() : surface_,
-                ConeOptions{options_.turns, options_.price, options_.along, usual_tiles_ / (half_ ? 2 : 1)},
+                ConeOptions{.k = options_.turns, .along = options_.along, .tiles = usual_tiles_ / (half_ ? 2 : 1)},
                 Lines{std::move(lines), are_whole}, options_.chosen);
 }
 

@@ -24,7 +24,6 @@ struct TilerOptions {
   Rows rows = Rows::kNone;
   std::vector<mesh::Pair> marked;  ///< vertices of edges that are lines besides those that are found
   std::vector<int> chosen;         ///< #V, k-th turns that are missing around cones; empty where these are searched for
-  double price = 1e-4;             ///< of a cone: what it is to take off the mean square of the logarithm of the scale
 };
 
 struct TurnedTiling {

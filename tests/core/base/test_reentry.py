@@ -22,7 +22,6 @@ from holomorph import (
     log_map,
     place_poles,
     rectangle_map,
-    triangle_map,
 )
 from solved import CLOSED, surface_of
 
@@ -127,9 +126,6 @@ CASES = {
     "disk": of(disk, lambda s, p: disk_map(s, progress=p)),
     "free boundary": of(disk, lambda s, p: free_boundary_map(s, progress=p)),
     "rectangle": of(disk, lambda s, p: rectangle_map(s, progress=p)),
-    "triangle": of(
-        lambda: surface_of(families.punched(families.geodesic_sphere(5), 1)), lambda s, p: triangle_map(s, progress=p)
-    ),
     "progressive mesh": of(block, lambda s, p: ProgressiveMesh(s, progress=p).level(200)),
     "level": of(lambda: ProgressiveMesh(block()), lambda m, p: m.conformal_structure(200, progress=p)),
     "equivalence": of(solved(block), equivalent),

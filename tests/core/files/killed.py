@@ -32,7 +32,7 @@ def writers(folder):
     command = [str(mesh), "--main", "balanced", "--output", str(files[0]), "--report", str(files[1])]
     return {
         "mesh": (meshes, lambda: [surface.write(path) for path in meshes] and 0),
-        "progressive mesh": ([folder / "new.pm"], lambda: progressive.save(folder / "new.pm")),
+        "progressive mesh": ([folder / "new.npz"], lambda: progressive.save(folder / "new.npz")),
         "levels": (levels, lambda: [progressive.level(n).write(path) for n, path in zip((400, 200), levels)] and 0),
         "command": (files, lambda: main(command)),
         "compare": ([report], lambda: main(["compare", str(mesh), str(mesh), "--report", str(report)])),

@@ -114,8 +114,8 @@ def test_exact_periods_are_within_the_bounds(name, bounds):
     structure = conformal_structure(surface_of(REGULAR[name]()), bounds=bounds)
     lattice, unit = period_lattice(structure), symplectic_unit(structure.surface.genus)
     exact = gram_of(EXACT[name])
-    search = _native.isometries(_native.PeriodLattice.closed(exact, unit), lattice, sign=1, slack=0.0, progress=None)
-    nearest = min(search.found, key=lambda isometry: isometry.residual)
+    found, _ = _native.isometries(_native.PeriodLattice.closed(exact, unit), lattice, sign=1, slack=0.0, progress=None)
+    nearest = min(found, key=lambda isometry: isometry.residual)
     R, residual = nearest.matrix, nearest.residual
     wedge = -np.rint(np.linalg.inv(structure.intersection_matrix))
     assert (R @ unit @ R.T == wedge).all()

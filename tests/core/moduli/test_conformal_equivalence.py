@@ -37,7 +37,7 @@ def verdict(a, b):
     lattices = lattice(a), lattice(b)
     needed = AGREEMENT * np.sqrt(np.prod([each.radius() for each in lattices]))
     made = _native.compare(*lattices, allowed=0.0, needed=needed, progress=None)
-    return made.verdict.name, made.isometry and made.isometry.matrix, made.sign, made.tolerance, made.margin
+    return made.verdict, made.isometry and made.isometry.matrix, made.sign, made.tolerance, made.margin
 
 
 def assert_certificate(R, sign):

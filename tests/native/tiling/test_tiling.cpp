@@ -219,9 +219,7 @@ TEST(TextureLattice, NearestPointsAndSymmetry) {
     const Complex point = lattice.point(3, -2);
     EXPECT_LT(std::abs(lattice.nearest(point + Complex(0.2, -0.1)) - point), 1e-12);
     EXPECT_LT((lattice.coordinates(point) - Eigen::Vector2d(3, -2)).norm(), 1e-12);
-    EXPECT_TRUE(lattice.is_mirrored());
   }
-  EXPECT_FALSE((TextureLattice{1.0, {0.3, 1.0}}).is_mirrored());
 }
 
 }  // namespace

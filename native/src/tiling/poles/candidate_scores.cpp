@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "tiling/poles/mirror.h"
-
 namespace holomorph::tiling {
 namespace {
 
@@ -46,7 +44,7 @@ float middle(const std::vector<float>& logarithms) {
 }  // namespace
 
 void CandidateScores::prepare(const std::vector<int>& vertices) {
-  for (const int v : with_images(vertices, mirror_)) {
+  for (const int v : vertices) {
     if (!columns_.contains(v)) columns_.emplace(v, halves(greens_.at({v}, every_).col(0)));
   }
 }
@@ -65,16 +63,7 @@ double CandidateScores::operator()(int vertex, Complex residue) const {
   thread_local std::vector<float> logarithms;
   logarithms.resize(count);
   float* l = logarithms.data();
-  const int image = mirror_ ? mirror_->image[vertex] : vertex;
-  if (image != vertex) {
-    const float *x2 = columns_.at(image).data(), *y2 = x2 + count;
-    for (Index i = 0; i < count; ++i) {
-      const float u = a[i] + re * (x[i] + x2[i]) - im * (y[i] - y2[i]);
-      const float v = b[i] + re * (y[i] + y2[i]) + im * (x[i] - x2[i]);
-      l[i] = log2_of(u * u + v * v);
-    }
-  }
-  for (Index i = 0; image == vertex && i < count; ++i) {
+  for (Index i = 0; i < count; ++i) {
     const float u = a[i] + (re * x[i] - im * y[i]), v = b[i] + (re * y[i] + im * x[i]);
     l[i] = log2_of(u * u + v * v);
   }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "tiling/greens/greens_functions.h"
-#include "tiling/poles/mirror.h"
 
 namespace holomorph::tiling {
 
@@ -15,27 +14,23 @@ namespace holomorph::tiling {
 /// time.
 class CandidateScores {
  public:
-  /// @param every stride of the samples that are used. @param mirror null, or each pole comes with its image
-  /// @pre these outlive this
-  CandidateScores(const GreensFunctions& greens, int every, const Mirror* mirror = nullptr)
-      : greens_(greens), every_(every), mirror_(mirror) {}
+  /// @param every stride of the samples that are used. @pre the functions outlive this
+  CandidateScores(const GreensFunctions& greens, int every) : greens_(greens), every_(every) {}
 
-  /// Looks up the Green's functions of these vertices, and of their images. @pre they were solved for
+  /// Looks up the Green's functions of these vertices. @pre they were solved for
   void prepare(const std::vector<int>& vertices);
 
   /// Sets the part of the form that all candidates share. @param A on the samples used
   /// @param median of a density near those of the candidates
   void set_rest(const VectorXcd& A, double median);
 
-  /// Returns the score of the shared part plus `residue` times the Green's function of a vertex; with a mirror, also
-  /// plus the conjugate residue at the image. Several threads may call it.
-  /// @pre `prepare` was called for the vertex
+  /// Returns the score of the shared part plus `residue` times the Green's function of a vertex. Several
+  /// threads may call it. @pre `prepare` was called for the vertex
   double operator()(int vertex, Complex residue) const;
 
  private:
   const GreensFunctions& greens_;
   int every_;
-  const Mirror* mirror_;
   double scale_ = 1;                                  // that of the rest, which single precision is relative to
   Eigen::VectorXf rest_;                              // real parts above imaginary ones
   std::unordered_map<int, Eigen::VectorXf> columns_;  // likewise

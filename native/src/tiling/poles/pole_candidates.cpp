@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kApart = 0.06;  // least distance of two poles, in square roots of the area
 constexpr int kSpread = 200;     // candidates all over the surface
-constexpr int kOnPlane = 40;     // more of them on the plane of a mirror
 // Around a pole, candidates come from fixed subsets of all vertices, some {600, 1800, 5400} of them, within these
 // radii. So poles near each other, and a pole that moved, have candidates in common, and fewer systems are solved.
 constexpr std::pair<int, double> kAround[] = {{600, 0.15}, {1800, 0.08}, {5400, 0.04}};
@@ -35,38 +34,12 @@ PoleCandidates::PoleCandidates(const PoleBasis& basis, const PlaceOptions& optio
 }
 
 std::vector<int> PoleCandidates::first() {
-  if (options_.mirror) return first_mirrored();
   if (!options_.allowed.empty()) return first_candidates();
   if (!basis_.closed()) return {structure::deepest_vertex(basis_.surface(), basis_.half_edges())};
   std::vector<int> pair = structure::far_apart(basis_.surface(), basis_.half_edges());
   // far_apart() asks only that the stars are apart. Here poles also keep a distance, and are not corners of one large
   // polygon.
   return free_ones({pair[1]}, {pair[0]}).empty() ? first_candidates() : pair;
-}
-
-// Two poles on the plane, the second far from the first; else the pair farthest from the plane. None where there is no
-// room.
-std::vector<int> PoleCandidates::first_mirrored() {
-  const Mirror& mirror = *options_.mirror;
-  std::vector<int> on_plane = everywhere({}), off_plane = on_plane;
-  std::erase_if(on_plane, [&](int v) { return !mirror.is_on_plane(v); });
-  std::erase_if(off_plane, [&](int v) { return mirror.is_on_plane(v); });
-  const auto farthest = [&](const std::vector<int>& list, auto&& distance) {
-    return *std::ranges::max_element(list, {}, distance);
-  };
-  if (!on_plane.empty()) {
-    const auto& from_any = distances(on_plane.front());
-    const int one = farthest(on_plane, [&](int v) { return from_any[v]; });
-    const auto& from_one = distances(one);
-    std::vector<int> others = free_ones(on_plane, {one});
-    if (!others.empty()) return {one, farthest(others, [&](int v) { return from_one[v]; })};
-  }
-  if (off_plane.empty()) return {};
-  const int one = farthest(off_plane, [&](int v) {
-    const auto& p = basis_.surface().polygons.vertices[v];
-    return std::abs(mirror.plane.height(Eigen::Vector3d(p.data())));
-  });
-  return {one, mirror.image[one]};
 }
 
 // The first poles where only some vertices are allowed: candidates far from each other.
@@ -93,7 +66,6 @@ std::vector<int> PoleCandidates::for_move(int vertex, const std::vector<int>& ot
   const std::vector<int> around = near(vertex);
   all.insert(all.end(), around.begin(), around.end());
   std::erase(all, vertex);
-  std::erase_if(all, [&](int v) { return !may_replace(vertex, v); });
   return free_ones(std::move(all), others);
 }
 
@@ -108,35 +80,18 @@ std::vector<int> PoleCandidates::spread() const {
       break;
     }
   }
-  if (const Mirror* mirror = options_.mirror) {
-    std::vector<int> on_plane;
-    for (int v = 0; v < surface.vertex_count; ++v) {
-      if (mirror->is_on_plane(v) && basis_.is_place(v, options_.allowed)) on_plane.push_back(v);
-    }
-    // The first of a pair stands for both.
-    std::erase_if(corners, [&](int v) { return mirror->image[v] <= v; });
-    on_plane = evenly(on_plane, kOnPlane);
-    corners.insert(corners.end(), on_plane.begin(), on_plane.end());
-  }
   return corners;
-}
-
-bool PoleCandidates::may_replace(int vertex, int by) const {
-  const Mirror* mirror = options_.mirror;
-  return !mirror || (mirror->is_on_plane(by) == mirror->is_on_plane(vertex) && mirror->image[by] != vertex);
 }
 
 std::vector<int> PoleCandidates::near(int vertex) {
   const auto& distance = distances(vertex);
-  const bool on_plane = options_.mirror && options_.mirror->is_on_plane(vertex);
   const auto count = static_cast<int>(distance.size());
   std::vector<int> all;
   for (const auto& [most, ball] : kAround) {
     const double radius = ball * std::sqrt(basis_.area());
-    // The plane has few vertices: all of them are candidates there.
-    const int step = on_plane ? 1 : 1 + (count - 1) / most;
+    const int step = 1 + (count - 1) / most;
     for (int v = 0; v < count; v += step) {
-      if (distance[v] < radius && is_allowed(v) && may_replace(vertex, v)) all.push_back(v);
+      if (distance[v] < radius && is_allowed(v)) all.push_back(v);
     }
   }
   return all;
@@ -163,23 +118,9 @@ std::vector<int> PoleCandidates::free_ones(std::vector<int> candidates, const st
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   std::erase_if(candidates, [&](int v) {
-    return taken[v] || opposite.contains(v) || !mesh::has_free_star(surface, half_edges, v, taken) ||
-           (options_.mirror && !is_apart_from_image(v, taken));
+    return taken[v] || opposite.contains(v) || !mesh::has_free_star(surface, half_edges, v, taken);
   });
   return candidates;
-}
-
-// Whether the image can be a pole beside the vertex and those of which corners are taken.
-bool PoleCandidates::is_apart_from_image(int vertex, const std::vector<char>& taken) const {
-  const mesh::Surface& surface = basis_.surface();
-  const int image = options_.mirror->image[vertex];
-  if (image == vertex) return true;
-  if (image < 0 || taken[image] || !is_allowed(image)) return false;
-  const Eigen::Vector3d p(surface.polygons.vertices[vertex].data()), q(surface.polygons.vertices[image].data());
-  return (p - q).norm() >= kApart * std::sqrt(basis_.area()) &&
-         mesh::has_free_star(surface, basis_.half_edges(), image, taken) &&
-         mesh::are_apart(mesh::corners_around(surface, basis_.half_edges(), vertex),
-                         mesh::corners_around(surface, basis_.half_edges(), image));
 }
 
 const std::vector<double>& PoleCandidates::distances(int vertex) {

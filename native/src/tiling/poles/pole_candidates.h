@@ -5,7 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "tiling/poles/mirror.h"
+#include "tiling/greens/pole_basis.h"
+#include "tiling/poles/meromorphic_form.h"
 
 namespace holomorph::tiling {
 
@@ -21,7 +22,6 @@ struct PlaceOptions {
   std::vector<char> allowed;                         ///< #V of the basis: may a pole be there; empty: anywhere
   std::vector<int> fixed;                            ///< poles that stay where they are
   std::vector<std::vector<int>> polygons = {};       ///< sets of vertices that, like a face, have room for one pole
-  const Mirror* mirror = nullptr;                    ///< null, or poles lie in pairs and on its plane
   bool evened = false;                               ///< the number of poles is to be enough for an evened map
   std::shared_ptr<BalancedForm> balanced = nullptr;  ///< filled where it is needed and not known
 };
@@ -38,22 +38,17 @@ class PoleCandidates {
   std::vector<int> first();
   /// Returns some 200 candidates all over the surface, ascending. @param others the poles of the form besides
   std::vector<int> everywhere(const std::vector<int>& others);
-  /// Returns such candidates, and more of them near `vertex`, without `vertex` itself; ascending. With a mirror all are
-  /// on its plane if `vertex` is, else none.
+  /// Returns such candidates, and more of them near `vertex`, without `vertex` itself; ascending.
   std::vector<int> for_move(int vertex, const std::vector<int>& others);
 
  private:
   std::vector<int> first_candidates();
   std::vector<int> spread() const;
   std::vector<int> near(int vertex);
-  std::vector<int> first_mirrored();
   std::vector<int> free_ones(std::vector<int> candidates, const std::vector<int>& others);
-  bool is_apart_from_image(int vertex, const std::vector<char>& taken) const;
-  bool may_replace(int vertex, int by) const;
   const std::vector<double>& distances(int vertex);
   bool is_allowed(int vertex) const {
-    return (options_.allowed.empty() || options_.allowed[vertex]) && basis_.is_certain(vertex) &&
-           (!options_.mirror || options_.mirror->image[vertex] >= 0);
+    return (options_.allowed.empty() || options_.allowed[vertex]) && basis_.is_certain(vertex);
   }
 
   const PoleBasis& basis_;

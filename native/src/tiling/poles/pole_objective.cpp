@@ -117,11 +117,10 @@ constexpr int kManyForms = 20;  // from this number on
 // With many forms, all coefficients are fitted seldom: these are steps times forms, as the cost of one grows with them.
 constexpr int kStepsTimesForms = 6400, kMostSteps = 100;
 
-PoleObjective::PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every, const Mirror* mirror)
+PoleObjective::PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every)
     : greens_(greens),
-      kind_(mirror ? uv::Coefficients::real : kind),
+      kind_(kind),
       every_(every),
-      mirror_(mirror),
       theta_(greens.basis().holomorphic().M(Eigen::seq(0, Eigen::last, every), Eigen::all)) {
   if (greens.basis().has_jacobian()) jacobian_.emplace(greens.basis());
 }
@@ -194,23 +193,13 @@ VectorXcd PoleObjective::samples_of(const MeromorphicForm& form) const {
 
 // The columns of `forms`, which stand for the theta_j, and those of the poles.
 MatrixXcd PoleObjective::columns(const MatrixXcd& forms, const std::vector<int>& vertices) const {
-  const MatrixXcd poles = mirror_ ? MatrixXcd(greens_.at(vertices, every_) * symmetric_residues(vertices, *mirror_))
-                                  : greens_.pole_forms(vertices, every_);
+  const MatrixXcd poles = greens_.pole_forms(vertices, every_);
   MatrixXcd all(theta_.rows(), forms.cols() + poles.cols());
   all << forms, poles;
   return all;
 }
 
 VectorXcd PoleObjective::unknowns(const MeromorphicForm& form) const {
-  if (mirror_) {
-    // The real coordinates of the residues in the basis of symmetric ones, by least squares.
-    const MatrixXcd basis = symmetric_residues(form.poles, *mirror_);
-    MatrixXd rows(2 * basis.rows(), basis.cols());
-    VectorXd right(2 * basis.rows());
-    rows << basis.real(), basis.imag();
-    right << form.residues.real(), form.residues.imag();
-    return linear::least_squares(rows, right).cast<Complex>();
-  }
   const Index free = std::max<Index>(0, form.residues.size() - (greens_.basis().closed() ? 1 : 0));
   VectorXcd x(form.coefficients.size() + free);
   x << form.coefficients, form.residues.head(free);
@@ -218,10 +207,6 @@ VectorXcd PoleObjective::unknowns(const MeromorphicForm& form) const {
 }
 
 void PoleObjective::set(const VectorXcd& x, MeromorphicForm& form) const {
-  if (mirror_) {
-    form.residues = symmetric_residues(form.poles, *mirror_) * x;
-    return;
-  }
   const Index n = form.coefficients.size(), free = x.size() - n;
   form.coefficients = x.head(n);
   form.residues.head(free) = x.tail(free);

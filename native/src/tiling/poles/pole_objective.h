@@ -9,7 +9,6 @@
 
 #include "tiling/inversion/abel_jacobi.h"
 #include "tiling/poles/meromorphic_form.h"
-#include "tiling/poles/mirror.h"
 
 namespace holomorph::tiling {
 
@@ -17,9 +16,8 @@ class PoleObjective {
  public:
   using Tick = std::function<void()>;
 
-  /// @pre the Green's functions and the mirror outlive this. @param every stride of the samples that are used
-  /// @param mirror null, or forms stay their own mirror image
-  PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every = 1, const Mirror* mirror = nullptr);
+  /// @pre the Green's functions outlive this. @param every stride of the samples that are used
+  PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every = 1);
 
   /// Solves for the Green's functions of these vertices, which the methods below look up.
   /// @param poles number of poles of the forms to be judged. @throws SolverError, Cancelled
@@ -57,7 +55,6 @@ class PoleObjective {
   GreensFunctions& greens_;
   uv::Coefficients kind_;
   int every_;
-  const Mirror* mirror_;
   MatrixXcd theta_;                   // A of the theta_j on the samples used
   std::optional<Jacobian> jacobian_;  // only on a closed surface with handles
   std::map<int, VectorXcd> tau_;

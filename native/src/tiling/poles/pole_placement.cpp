@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -26,8 +25,7 @@ class PoleSearch : private SearchSteps {
 
   /// Returns the best form with the fixed poles or, without any, with as few poles as possible.
   MeromorphicForm begin();
-  /// Adds poles up to `count`, one by one where they help most. @return whether there was room for all; with a
-  /// mirror one may be missing
+  /// Adds poles up to `count`, one by one where they help most. @return whether there was room for all
   bool add(MeromorphicForm& form, int count);
   /// Moves each pole in turn to where it does best beside the others. @return whether one moved
   bool sweep(MeromorphicForm& form);
@@ -65,6 +63,22 @@ int lost(const MeromorphicForm& form, const MeromorphicForm& other) {
   return held(std::ranges::find_if(form.poles, is_missing), form.poles);
 }
 
+// Moves the first pole to the end of the lists.
+void first_to_last(MeromorphicForm& form) {
+  std::rotate(form.poles.begin(), form.poles.begin() + 1, form.poles.end());
+  std::rotate(form.residues.begin(), form.residues.begin() + 1, form.residues.end());
+}
+
+// Removes the last pole; the others share its residue where the sum has to be 0.
+MeromorphicForm without_last(MeromorphicForm form, bool closed) {
+  const Index k = form.residues.size() - 1;
+  const Complex last = form.residues[k];
+  form.poles.pop_back();
+  form.residues.conservativeResize(k);
+  if (closed) form.residues.array() += last / static_cast<double>(k);
+  return form;
+}
+
 // Returns the least number of poles that a form on this surface needs.
 int least_count(const PoleBasis& basis) { return basis.form_count() > 0 ? 0 : basis.closed() ? 2 : 1; }
 
@@ -73,13 +87,10 @@ MeromorphicForm PoleSearch::begin() {
   form.poles = options_.fixed;
   if (form.poles.empty() && basis_.form_count() == 0) form.poles = candidates_.first();
   const auto k = static_cast<Index>(form.poles.size());
-  if (options_.mirror && k == 0) return form;  // there is no room
   BalancedForm* const balanced = k == 0 ? options_.balanced.get() : nullptr;
   if (balanced && balanced->every == every_) return balanced->form;
   form.residues = VectorXcd::Ones(k);
   if (basis_.closed() && k > 0) form.residues[k - 1] = -static_cast<double>(k - 1);
-  // Images have conjugate residues that sum to 0: i and -i.
-  if (k > 0 && is_pair(form.poles[0])) form.residues *= Complex(0, 1);
   form.coefficients = VectorXcd::Zero(basis_.form_count());
   if (basis_.form_count() > 0 && k == 0) {
     form.coefficients = basis_.form_count() == 1 ? VectorXcd::Ones(1)
@@ -94,22 +105,20 @@ MeromorphicForm PoleSearch::begin() {
 }
 
 bool PoleSearch::add(MeromorphicForm& form, int count) {
-  if (options_.mirror && form.poles.empty()) return false;  // there was no room for the first ones
   fill(form, count);
   refit(form);
-  const int missing = count - static_cast<int>(form.poles.size());
-  return missing <= (options_.mirror ? 1 : 0);
+  return std::ssize(form.poles) >= count;
 }
 
 void PoleSearch::fill(MeromorphicForm& form, int count) {
-  while (std::ssize(form.poles) < count && add_one(form, count - static_cast<int>(form.poles.size()))) {
+  while (std::ssize(form.poles) < count && add_one(form)) {
   }
 }
 
 bool PoleSearch::sweep(MeromorphicForm& form) {
   bool moved = false;
   for (Index i = 0; i < form.residues.size(); ++i) {
-    if (!is_fixed(form.poles[i]) && orbit_size(form, i) > 0) moved |= exchange(form, i);
+    if (!is_fixed(form.poles[i])) moved |= exchange(form, i);
   }
   if (moved) refit(form);
   return moved;
@@ -157,7 +166,7 @@ void PoleSearch::sweep_to_the_end(MeromorphicForm& form) {
   for (int i = 0; i < kSweeps; ++i) {
     bool moved = false;
     for (Index j = 0; j < count && unmoved < count; ++j) {
-      const bool better = !is_fixed(form.poles[j]) && orbit_size(form, j) > 0 && exchange(form, j);
+      const bool better = !is_fixed(form.poles[j]) && exchange(form, j);
       moved |= better;
       unmoved = better ? 0 : unmoved + 1;
     }
@@ -189,17 +198,15 @@ bool PoleSearch::relocate(MeromorphicForm& form) {
   return moved;
 }
 
-// Returns the form without the pole, or the pair, that is missed least. @param least number of poles that have to be
-// left
+// Returns the form without the pole that is missed least. @param least number of poles that have to be left
 std::optional<MeromorphicForm> PoleSearch::least_missed(MeromorphicForm form, const std::vector<int>& stay,
                                                         Index least) {
   std::vector<MeromorphicForm> tried;
   const auto count = static_cast<Index>(form.poles.size());
-  for (Index i = 0; i < count;) {
-    const Index size = first_to_last(form, options_.mirror);  // each becomes the last one once
-    i += size;
-    if (count - size >= least && std::ranges::find(stay, form.poles[count - size]) == stay.end())
-      tried.push_back(without_last(form, size, basis_.closed()));
+  for (Index i = 0; i < count; ++i) {
+    first_to_last(form);  // each becomes the last one once
+    if (count - 1 >= least && std::ranges::find(stay, form.poles.back()) == stay.end())
+      tried.push_back(without_last(form, basis_.closed()));
   }
   if (tried.empty()) return std::nullopt;
   return best_optimised(std::move(tried), kFromNear);
@@ -214,12 +221,9 @@ constexpr double kHopeful = 2 * kEvenWith;  // only with a lower one a count is 
 constexpr int kCountsEvened[] = {2, 3, 4, 6, 8, 10, 12, 14, 16};
 constexpr double kEvenedWithout = 2.85, kEvened = 2.75;  // spread of the evened density
 constexpr double kHopefulEvened = 1.2 * kEvened;
-constexpr double kAllowed = 3;                             // the same, where hiding and a mirror have cost some
-constexpr double kUsualValues = 30;                        // usual evaluations of the objective in the last descent
-constexpr double kOperations = 4;                          // of an evaluation, for each sample and form
-constexpr double kMirrorCosts = 1.25, kMirrorPoles = 1.5;  // at most, of the (evened) ratio, and of poles
-constexpr int kFewMirrored = 8;  // up to this number, mirrored poles that are enough need no comparison
-constexpr double kWorth = 0.9;   // more poles are taken where the spread falls to this part of itself
+constexpr double kUsualValues = 30;  // usual evaluations of the objective in the last descent
+constexpr double kOperations = 4;    // of an evaluation, for each sample and form
+constexpr double kWorth = 0.9;       // more poles are taken where the spread falls to this part of itself
 
 // The stride of the samples in a search for this number of poles.
 int thinning(const GreensFunctions& greens, int count) {
@@ -241,10 +245,8 @@ MeromorphicForm enough_for_evening(GreensFunctions& greens, const PlaceOptions& 
   // The spread of the conformal map that evening takes to kEvened.
   const double enough = std::pow(kEvened, 1 / evening::kUsualPower);
   MeromorphicForm added = few.begin(), best = added;
-  if (options.mirror && added.poles.empty()) return added;
   double least = evened(few.spread_of(best));
   for (const int count : kCountsEvened) {
-    if (options.mirror && count % 2 == 1) continue;  // which would ask for a pole on the plane
     PoleSearch& search = count <= kFew ? few : more;
     if (least <= (best.poles.empty() ? kEvenedWithout : kEvened) || !search.add(added, count)) break;
     search.sweep(added);
@@ -256,13 +258,12 @@ MeromorphicForm enough_for_evening(GreensFunctions& greens, const PlaceOptions& 
     best = added;
   }
   best = (std::ssize(best.poles) <= kFew ? few : more).hidden(std::move(best));
-  return optimised(greens, options.kind, options.mirror, std::move(best), execution);
+  return optimised(greens, options.kind, std::move(best), execution);
 }
 
 MeromorphicForm enough(GreensFunctions& greens, const PlaceOptions& options, Execution& execution) {
   PoleSearch few(greens, options, thinning(greens, kFew), execution), more(greens, options, kEvery, execution);
   MeromorphicForm added = few.begin(), best = added;
-  if (options.mirror && added.poles.empty()) return added;
   double least = few.spread_of(best);
   for (const int count : kCounts) {
     PoleSearch& search = count <= kFew ? few : more;
@@ -275,65 +276,39 @@ MeromorphicForm enough(GreensFunctions& greens, const PlaceOptions& options, Exe
     least = spread;
     best = added;
   }
-  return optimised(greens, options.kind, options.mirror, std::move(best), execution);
+  return optimised(greens, options.kind, std::move(best), execution);
 }
 
-// Places this number of poles. With a mirror it returns none where there is no room for them in pairs.
+// Places this number of poles.
 MeromorphicForm so_many(GreensFunctions& greens, const PlaceOptions& options, int count, Execution& execution) {
   PoleSearch search(greens, options, thinning(greens, count), execution);
   MeromorphicForm form = search.begin();
-  if (!search.add(form, count) || std::ssize(form.poles) < count) {
-    if (options.mirror) return {};
+  if (!search.add(form, count)) {
     throw TopologyError("there is room for " + std::to_string(form.poles.size()) + " of " + std::to_string(count) +
                         " poles: the faces around them must not touch; take fewer, or subdivide the mesh");
   }
   if (static_cast<int>(options.fixed.size()) < count) form = at_the_best_places(search, std::move(form));
-  return optimised(greens, options.kind, options.mirror, std::move(form), execution);
-}
-
-// Returns what `place` finds, with the mirror if that is hardly less even and takes hardly more poles.
-// @param options afterwards without the mirror if the result has none
-MeromorphicForm mirrored_or_not(GreensFunctions& greens, PlaceOptions& options,
-                                const std::function<MeromorphicForm()>& place) {
-  MeromorphicForm mirrored = place();
-  if (!options.mirror) return mirrored;
-  const bool does = options.evened && !mirrored.poles.empty() && std::ssize(mirrored.poles) <= kFewMirrored &&
-                    evened(spread(density(mirrored, greens))) <= kAllowed;
-  if (does) return mirrored;
-  const Mirror* mirror = std::exchange(options.mirror, nullptr);
-  MeromorphicForm other = place();
-  const auto ratio = [&](const MeromorphicForm& form) {
-    const double conformal = density_ratio(density(form, greens));
-    return options.evened ? evened(conformal) : conformal;
-  };
-  const auto count = [](const MeromorphicForm& form) { return static_cast<double>(form.poles.size()); };
-  if (mirrored.poles.empty() || ratio(mirrored) > kMirrorCosts * ratio(other) ||
-      count(mirrored) > kMirrorPoles * count(other))
-    return other;
-  options.mirror = mirror;
-  return mirrored;
+  return optimised(greens, options.kind, std::move(form), execution);
 }
 
 }  // namespace
 
-MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, int count, Execution& execution) {
+MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, int count, Execution& execution) {
   if (count < least_count(greens.basis()) || (count == 1 && greens.basis().closed())) {
     throw TopologyError(std::to_string(count) + (count == 1 ? " pole is" : " poles are") + " not enough: " +
                         (greens.basis().closed()
                              ? "on a closed surface the residues sum to 0, so two or more are needed"
                              : "a disk needs one or more"));
   }
-  return mirrored_or_not(greens, options, [&] { return so_many(greens, options, count, execution); });
+  return so_many(greens, options, count, execution);
 }
 
-MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, Execution& execution) {
-  const auto place = options.evened ? enough_for_evening : enough;
-  return mirrored_or_not(greens, options, [&] { return place(greens, options, execution); });
+MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, Execution& execution) {
+  return (options.evened ? enough_for_evening : enough)(greens, options, execution);
 }
 
-MeromorphicForm optimised(GreensFunctions& greens, uv::Coefficients kind, const Mirror* mirror, MeromorphicForm start,
-                          Execution& execution) {
-  PoleObjective objective(greens, kind, 1, mirror);
+MeromorphicForm optimised(GreensFunctions& greens, uv::Coefficients kind, MeromorphicForm start, Execution& execution) {
+  PoleObjective objective(greens, kind);
   objective.prepare(start.poles, start.residues.size(), execution);
   const auto samples = static_cast<double>(greens.basis().holomorphic().M.size());
   TaskProgress watch(execution, kUsualValues, kOperations * samples);

@@ -7,13 +7,11 @@
 #include "base/task_progress.h"
 #include "mesh/ambient_occlusion.h"
 #include "tiling/poles/candidate_scores.h"
-#include "tiling/poles/mirror.h"
 #include "tiling/poles/pole_candidates.h"
 #include "tiling/poles/pole_objective.h"
 
 namespace holomorph::tiling {
 
-/// With a mirror every step concerns an orbit: a pole on the plane, or a pair of images.
 class SearchSteps {
  public:
   /// @param every stride of the samples that are used. @pre what is referred to outlives the steps
@@ -23,19 +21,15 @@ class SearchSteps {
   static constexpr double kGain = 1e-3;  // less is no gain
   static inline const std::vector<double> kFromNear = {uv::kDensityFloor};
 
-  /// Moves pole i, the first of an orbit, to the candidate that does best. @return whether it moved
+  /// Moves pole i to the candidate that does best. @return whether it moved
   bool exchange(MeromorphicForm& form, Index i);
-  /// @param most poles, of which an orbit has one or two. @return whether there was room
-  bool add_one(MeromorphicForm& form, int most);
+  /// @return whether there was room
+  bool add_one(MeromorphicForm& form);
   /// Adds the exposure of poles to the objective until end_hiding(). @param worth weight of their mean exposure
   /// @param share amount by which the objective may grow for each pole that moves
   void begin_hiding(const std::vector<int>& poles, double worth, double share);
   void end_hiding() { exposure_.reset(); }
   MeromorphicForm best_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors);
-  Index orbit_size(const MeromorphicForm& form, Index i) const {
-    return tiling::orbit_size(form.poles, i, options_.mirror);
-  }
-  bool is_pair(int vertex) const { return options_.mirror && !options_.mirror->is_on_plane(vertex); }
 
   GreensFunctions& greens_;
   const PoleBasis& basis_;
@@ -55,7 +49,6 @@ class SearchSteps {
   };
 
   double price(const MeromorphicForm& form) const;
-  double worth_of(int vertex) const;
   std::vector<Trial> trials_everywhere(const MeromorphicForm& form);
   std::vector<MeromorphicForm> all_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors);
 

@@ -124,7 +124,6 @@ std::vector<double> RoundingSearch::phases() const {
   if (problem_.kind == uv::Coefficients::real)
     return {options_.phase && std::cos(*options_.phase) < 0 ? std::numbers::pi
                                                             : 0};  // u runs along boundaries either way
-  if (options_.only_phase) return {*options_.phase};
   std::vector<double> phases;
   const int count = is_whole() ? kPhases : kPhasesByBlocks;
   for (int i = 0; !options_.phase && i < count; ++i) phases.push_back(problem_.lattice.symmetry() * i / count);
@@ -133,9 +132,7 @@ std::vector<double> RoundingSearch::phases() const {
   return phases;
 }
 
-int RoundingSearch::scales() const {
-  return options_.only_phase ? kScales * kNearPhases : is_whole() ? kScales : kScalesByBlocks;
-}
+int RoundingSearch::scales() const { return is_whole() ? kScales : kScalesByBlocks; }
 
 RoundingSearch::Weighted RoundingSearch::weighted(const MatrixXcd& rows) {
   const VectorXcd& target = problem_.target;

@@ -13,7 +13,6 @@ namespace holomorph::tiling {
 struct RoundingOptions {
   std::optional<double> phase;  ///< rotation of the target, in radians; none: any will do
   double max_turn = 0;          ///< largest change of a given phase, in radians
-  bool only_phase = false;      ///< the given phase alone is tried, with more sizes
   bool steps = false;           ///< also tries short lattice steps away from the best roundings: other sizes
 };
 

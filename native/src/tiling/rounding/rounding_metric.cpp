@@ -73,8 +73,6 @@ double TextureLattice::symmetry() const {
   return std::numbers::pi;
 }
 
-bool TextureLattice::is_mirrored() const { return has(std::conj(a)) && has(std::conj(b)); }
-
 VectorXcd mean_weights(const ArrayXd& density) {
   const ArrayXd floored = density + uv::kDensityFloor * density.mean();
   return (1 / (floored * static_cast<double>(density.size()))).matrix().cast<Complex>();

@@ -18,8 +18,6 @@ struct TextureLattice {
   bool has(Complex z) const;  ///< up to rounding, z not 0
   /// The least rotation that takes the lattice to itself, in radians: pi / 2, pi / 3 or, for most lattices, pi.
   double symmetry() const;
-  /// Whether z -> conj z takes the lattice to itself.
-  bool is_mirrored() const;
 };
 
 /// Forms in coordinates y = (c_j, r_i, t_l): A = forms y on the samples, and B = defects t, what keeps the form from

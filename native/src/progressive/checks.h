@@ -1,7 +1,7 @@
-// Progressive meshes as bytes, and the checks of what is read.
+// The checks of progressive meshes that come from elsewhere: arrays of a file, records.
 #pragma once
 
-#include <string_view>
+#include <cstddef>
 #include <vector>
 
 #include "progressive/progressive_mesh.h"
@@ -15,11 +15,5 @@ void set_base(ProgressiveMesh& mesh, const std::vector<Triple>& triangles, std::
 /// Checks counts, permutations, corners and every split. If it returns, the levels and the original are valid meshes.
 /// @throws InvalidMesh naming what is wrong
 void check(const ProgressiveMesh& mesh);
-
-std::vector<char> to_bytes(const ProgressiveMesh& mesh);
-
-/// Every count, index and split is checked, and every split is made once.
-/// @throws InvalidMesh with what is wrong
-ProgressiveMesh from_bytes(std::string_view bytes);
 
 }  // namespace holomorph::progressive
