@@ -262,7 +262,7 @@ MUTATIONS = (
     | of(ROOM + "mesh/stitching.cpp", ("slivers-as-others", "? 2 : 0;  // what", "? 0 : 0;  // what", SLIVERS))
     | of(ROOM + "mesh/border_paths.cpp", ("paths-stop", "kShortest = 1e-12", "kShortest = 0", SLIVERS))
     | of(ROOM + "mesh/hard_edges.cpp", ("slivers-own-normals", "sums[owners[f]]", "sums[f]", SLIVERS))
-    | of(ROOM + "uv/overlap.cpp", ("overlap-twice", "std::abs(winding) > 1", "std::abs(winding) > 2", OVERLAP))
+    | of(ROOM + "uv/quality.cpp", ("overlap-twice", "std::abs(winding) > 1", "std::abs(winding) > 2", OVERLAP))
     | of(ROOM + "islands/pieces.cpp", ("windows-shortest", "std::pair(-a.length", "std::pair(a.length", MIXED))
     | of(ROOM + "islands/island_layout.cpp", ("same-place", "kSame = 1e-5", "kSame = 1e-6", SLIVERS))
     | of(

@@ -10,7 +10,7 @@
 #include "islands/shelves.h"
 #include "mesh/hard_edges.h"
 #include "uv/appearance.h"
-#include "uv/overlap.h"
+#include "uv/quality.h"
 
 namespace holomorph::islands {
 namespace {
