@@ -288,11 +288,11 @@ MUTATIONS = (
     | of(PACKAGE + "quality/direction.py", ("direction-slanted", "SLANTED = 25.0", "SLANTED = 20.0", DIRECTION))
     | of(ROOM + "turns/turned_space.cpp", ("lines-parts", "% 2 == 0 ? 1 : 0;", "% 2 == 0 ? 0 : 1;", LINES))
     | of(
-        ROOM + "evening/unknowns.cpp",
+        ROOM + "evening/turned_functions.cpp",
         ("unknowns-turn", "2 * b + 1, weight * turn.imag()", "2 * b + 1, -weight * turn.imag()", TURNED),
     )
     | of(ROOM + "evening/strain_energy.cpp", ("thin-triangles", "kThinArea = 1e-6", "kThinArea = 1e-2", THIN))
-    | of(ROOM + "evening/turned_solver.cpp", ("cover-signs", "part == 0 ? -im : im", "im", "native:TurnedSolver*"))
+    | of(ROOM + "evening/turned_functions.cpp", ("cover-signs", "part == 0 ? -im : im", "im", "native:TurnedSolver*"))
     | of(
         ROOM + "choice/tiling_search.cpp",
         ("lines-asked", "(are_edged && !edges", "(false && !edges", ASKED),
