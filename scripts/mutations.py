@@ -278,7 +278,7 @@ MUTATIONS = (
     )
     | of(ROOM + "turns/rounding.cpp", ("turned-sizes", "kOtherSize = 1;", "kOtherSize = 0;", TURNED))
     | of(ROOM + "turns/turned_map.cpp", ("cones-sum", "left != 0 && holes.empty()", "false", CHOSEN))
-    | of(ROOM + "islands/merge_islands.cpp", ("held-islands", "cos(5 *", "cos(150 *", DIRECTION))
+    | of(ROOM + "islands/island_layout.cpp", ("held-islands", "cos(5 *", "cos(150 *", DIRECTION))
     | of(ROOM + "turns/upright.cpp", ("upright-turns", "sine : sine;", "sine : -sine;", DIRECTION))
     | of(
         ROOM + "uv/direction.cpp",
