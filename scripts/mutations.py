@@ -319,7 +319,7 @@ MUTATIONS = (
     )
     | of(PACKAGE + "batch/textured.py", ("centre-of-turns", "+ np.array(found.centre) / images", "", GLB))
     | of(
-        ROOM + "turns/mirrored.cpp",
+        ROOM + "turns/turned_tiling.cpp",
         ("mirror-jumps", "low[1]) * std::conj(high[0]", "low[0]) * std::conj(high[1]", MIRRORED),
     )
     | of(ROOM + "mesh/mirror.cpp", ("mirror-side", "= following[at->second]", "= at->second", MIRRORED))
