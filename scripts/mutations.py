@@ -255,7 +255,7 @@ MUTATIONS = (
     | of(ROOM + "mesh/stitching.cpp", ("slivers-as-others", "? 2 : 0;  // what", "? 0 : 0;  // what", SLIVERS))
     | of(ROOM + "mesh/border_paths.cpp", ("paths-stop", "kShortest = 1e-12", "kShortest = 0", SLIVERS))
     | of(ROOM + "mesh/hard_edges.cpp", ("slivers-own-normals", "sums[owners[f]]", "sums[f]", SLIVERS))
-    | of(ROOM + "uv/overlap.cpp", ("overlap-twice", "std::abs(winding) > 1", "std::abs(winding) > 2", OVERLAP))
+    | of(ROOM + "uv/quality.cpp", ("overlap-twice", "std::abs(winding) > 1", "std::abs(winding) > 2", OVERLAP))
     | of(ROOM + "islands/pieces.cpp", ("windows-shortest", "std::pair(-a.length", "std::pair(a.length", MIXED))
     | of(ROOM + "islands/island_layout.cpp", ("same-place", "kSame = 1e-5", "kSame = 1e-6", SLIVERS))
     | of(
@@ -270,8 +270,8 @@ MUTATIONS = (
         ("lines-jagged", "kMostTurned = 3", "kMostTurned = 300", LINES),
     )
     | of(ROOM + "turns/rounding.cpp", ("turned-sizes", "kOtherSize = 1;", "kOtherSize = 0;", TURNED))
-    | of(ROOM + "turns/chosen_cones.cpp", ("cones-sum", "left != 0 && holes.empty()", "false", CHOSEN))
-    | of(ROOM + "islands/merge_islands.cpp", ("held-islands", "cos(5 *", "cos(150 *", DIRECTION))
+    | of(ROOM + "turns/turned_map.cpp", ("cones-sum", "left != 0 && holes.empty()", "false", CHOSEN))
+    | of(ROOM + "islands/island_layout.cpp", ("held-islands", "cos(5 *", "cos(150 *", DIRECTION))
     | of(ROOM + "turns/upright.cpp", ("upright-turns", "sine : sine;", "sine : -sine;", DIRECTION))
     | of(
         ROOM + "uv/direction.cpp",
@@ -281,11 +281,11 @@ MUTATIONS = (
     | of(PACKAGE + "quality/direction.py", ("direction-slanted", "SLANTED = 25.0", "SLANTED = 20.0", DIRECTION))
     | of(ROOM + "turns/turned_space.cpp", ("lines-parts", "% 2 == 0 ? 1 : 0;", "% 2 == 0 ? 0 : 1;", LINES))
     | of(
-        ROOM + "evening/unknowns.cpp",
+        ROOM + "evening/turned_functions.cpp",
         ("unknowns-turn", "2 * b + 1, weight * turn.imag()", "2 * b + 1, -weight * turn.imag()", TURNED),
     )
     | of(ROOM + "evening/strain_energy.cpp", ("thin-triangles", "kThinArea = 1e-6", "kThinArea = 1e-2", THIN))
-    | of(ROOM + "evening/turned_solver.cpp", ("cover-signs", "part == 0 ? -im : im", "im", "native:TurnedSolver*"))
+    | of(ROOM + "evening/turned_functions.cpp", ("cover-signs", "part == 0 ? -im : im", "im", "native:TurnedSolver*"))
     | of(
         ROOM + "choice/tiling_search.cpp",
         ("lines-asked", "(are_edged && !edges", "(false && !edges", ASKED),
@@ -312,7 +312,7 @@ MUTATIONS = (
     )
     | of(PACKAGE + "batch/textured.py", ("centre-of-turns", "+ np.array(found.centre) / images", "", GLB))
     | of(
-        ROOM + "turns/mirrored.cpp",
+        ROOM + "turns/turned_tiling.cpp",
         ("mirror-jumps", "low[1]) * std::conj(high[0]", "low[0]) * std::conj(high[1]", MIRRORED),
     )
     | of(ROOM + "mesh/mirror.cpp", ("mirror-side", "= following[at->second]", "= at->second", MIRRORED))

@@ -13,7 +13,6 @@
 #include "uv/appearance.h"
 #include "uv/direction.h"
 #include "uv/distortion.h"
-#include "uv/overlap.h"
 #include "uv/quality.h"
 
 namespace holomorph::bindings {

@@ -3,7 +3,7 @@
 #include <complex>
 #include <vector>
 
-#include "uv/overlap.h"
+#include "uv/quality.h"
 
 namespace holomorph::choice {
 namespace {

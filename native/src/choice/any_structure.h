@@ -7,7 +7,7 @@
 
 #include "choice/part.h"
 #include "choice/tilers.h"
-#include "evening/unknowns.h"
+#include "evening/turned_functions.h"
 #include "uv/quality.h"
 
 namespace holomorph::choice {

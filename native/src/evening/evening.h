@@ -5,7 +5,7 @@
 
 #include "base/execution.h"
 #include "evening/strain_energy.h"
-#include "evening/unknowns.h"
+#include "evening/turned_functions.h"
 #include "mesh/surface.h"
 #include "uv/uv_map.h"
 

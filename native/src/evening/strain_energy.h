@@ -59,7 +59,7 @@ class StrainEnergy {
   /// corner to corner it is that of their real and imaginary parts, in turn, twice as large.
   Eigen::SparseMatrix<double> laplacian(const Function& delta, double lambda, int count) const;
 
-  struct Patch;  // evening/patch.h
+  struct Patch;  // evening/evening.cpp
   /// Rings of triangles around the flipped ones.
   struct Rings {
     int all, inner;

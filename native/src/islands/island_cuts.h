@@ -1,11 +1,11 @@
 // Where a surface is cut into islands: at hard edges and tips, until all are disks, and to cone points.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/execution.h"
 #include "islands/flattening.h"
-#include "islands/merge_islands.h"
 #include "mesh/surface.h"
 #include "uv/uv_map.h"
 
@@ -17,6 +17,10 @@ struct Sides {
 };
 
 Sides sides_of(const mesh::Surface& surface);
+
+/// The two polygon sides at one edge of the surface before it was cut open. Corners at the start and end of the one
+/// side, then of the other; each side has its polygon on the left.
+using Joint = std::array<int, 4>;
 
 /// Where a surface is cut. Pieces have its polygons and corners; triangles at cuts may be others.
 class Cuts {

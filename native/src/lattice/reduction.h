@@ -1,9 +1,10 @@
-// Reduction of lattices by LLL, and the integer kernel of a matrix.
+// Lattices: reduction by LLL, points near a target, and the integer kernel of a matrix.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace holomorph::lattice {
 
@@ -39,6 +40,20 @@ ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = kDelta, const std::
 /// @param target m @return n integers, for the B that was reduced
 /// @throw SolverError the target is not finite @throw SolverError the integers are beyond 2^53
 IntegerVector nearest_plane(const ReducedBasis& reduced, const Eigen::VectorXd& target);
+
+struct NearPoints {
+  std::vector<IntegerVector> integers;  ///< for the B that was reduced, in a fixed order
+  std::int64_t steps = 0;               ///< nodes of the search
+  bool is_complete = true;              ///< false where `most_steps` ended the search
+};
+
+/// Finds all z with |target - B z|^2 <= squared_radius (Fincke & Pohst 1985, doi:10.1090/S0025-5718-1985-0777278-8).
+/// The caller allows for rounding: some 1e-13 |target|^2.
+/// @param target m @param tick called every few thousand nodes; it may throw
+/// @throw SolverError the integers are beyond 2^53
+/// Cost: grows with the number of lattice points in the balls of all projections of the lattice.
+NearPoints near_points(const ReducedBasis& reduced, const Eigen::VectorXd& target, double squared_radius,
+                       std::int64_t most_steps, const std::function<void()>& tick = {});
 
 /// Returns a basis of {z in Z^n : A z = 0}, n x k, by exchanges and differences of columns (Euclid's algorithm in each
 /// row).

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/held.h"
-#include "lattice/near_points.h"
+#include "lattice/reduction.h"
 #include "linear/dense.h"
 
 namespace holomorph::moduli {

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "lattice/reduction.h"
-#include "topology/symplectic_basis.h"
+#include "topology/homology.h"
 
 namespace holomorph::moduli {
 

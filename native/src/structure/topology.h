@@ -9,7 +9,7 @@
 #include "mesh/components.h"
 #include "topology/homology.h"
 #include "topology/pulled_back_classes.h"
-#include "uv/covering_sheets.h"
+#include "uv/uv_map.h"
 
 namespace holomorph::structure {
 

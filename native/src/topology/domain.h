@@ -12,6 +12,7 @@
 
 #include <vector>
 
+#include "base/execution.h"
 #include "base/page_allocator.h"
 #include "mesh/components.h"
 #include "mesh/stars.h"
@@ -35,5 +36,15 @@ struct FundamentalDomain {
   mesh::BoundaryLoops boundary;
   std::vector<HalfedgeHandle> gaps;  ///< e_k, the edge of boundary loop k outside T: the half-edge without a face
 };
+
+/// Grows the tree T of shortest paths from a root: fills in to_parent_vertex, vertex_rank and the gaps of a domain
+/// whose boundary is known.
+/// @return #V distances from the root along T
+/// Dijkstra along edges of polygons. The first vertex of a star that is settled settles its centre and link through
+/// the spokes. So does the first vertex of a boundary loop, at no cost, because the surface need not be cut along it.
+/// Cost: O(n log m), with m the few vertices of a bucket.
+Array<double> grow_shortest_paths(const mesh::Surface& surface, const HalfEdges& half_edges,
+                                  const std::vector<mesh::Star>& stars, int root, FundamentalDomain& domain,
+                                  Execution& execution);
 
 }  // namespace holomorph::topology

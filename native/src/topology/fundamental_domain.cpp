@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "topology/shortest_paths.h"
+#include "topology/domain.h"
 
 namespace holomorph::topology {
 namespace {

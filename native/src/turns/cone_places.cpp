@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "turns/laplace.h"
+#include "turns/scale_form.h"
 
 namespace holomorph::turns {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "evening/unknowns.h"
+#include "evening/turned_functions.h"
 #include "turns/cones.h"
 #include "turns/lines.h"
 #include "turns/rounding.h"

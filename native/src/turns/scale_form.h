@@ -1,13 +1,35 @@
 // The log scale of a flat metric with cones, as a quadratic form in the cones.
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <vector>
 
-#include "turns/laplace.h"
+#include "solver/direct/sparse_cholesky.h"
 #include "turns/net.h"
 
 namespace holomorph::turns {
+
+/// The Laplacian of a net, on which each hole is one vertex. Solves L u = b: u is one number along each boundary loop,
+/// and its mean over the surface is 0. What b has in sum is taken away evenly. It is natural at no boundary: nothing is
+/// asked of the direction there.
+class Laplace {
+ public:
+  /// @throws SolverError @pre the net outlives it
+  explicit Laplace(const Net& net);
+
+  /// @param B #V x n. @return #V x n
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B);
+
+ private:
+  const Net& net_;
+  std::vector<int> unknown_;  // #V
+  Eigen::VectorXd area_;      // of the unknowns, 1 in sum
+  solver::SparseCholesky factor_;
+};
+
+/// The vertex that stands for all of a boundary loop; otherwise the vertex itself.
+inline int place_of(const Net& net, int v) { return net.hole[v] < 0 ? v : net.hole[v]; }
 
 /// With n k-th turns missing at candidates, L u = (2 pi / k) n - defect has the integral of u^2, over an area of 1,
 ///     n^T Q n - 2 b^T n + constant.

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "turns/laplace.h"
 #include "turns/net.h"
+#include "turns/scale_form.h"
 
 namespace holomorph::turns {
 

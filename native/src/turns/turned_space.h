@@ -4,7 +4,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "evening/unknowns.h"
+#include "evening/turned_functions.h"
 #include "lattice/reduction.h"
 #include "turns/transitions.h"
 

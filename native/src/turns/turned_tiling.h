@@ -5,12 +5,41 @@
 #include <optional>
 #include <vector>
 
-#include "turns/mirrored.h"
+#include "mesh/mirror.h"
+#include "mesh/surface.h"
 #include "turns/turned_map.h"
 #include "uv/direction.h"
 #include "uv/quality.h"
+#include "uv/uv_map.h"
 
 namespace holomorph::turns {
+
+/// Half of a surface that mirrors itself, and how maps of it become those of the whole: one half is solved, whose rows
+/// end at the plane.
+class Half {
+ public:
+  /// The whole outlives this. @throws TopologyError for a surface that does not mirror itself, or whose half falls
+  /// apart
+  Half(const mesh::Surface& whole, uv::Up up, Execution& execution);
+
+  const std::shared_ptr<const mesh::Surface>& surface() const { return surface_; }
+  const std::vector<int>& lines() const { return lines_; }  ///< its edges in the plane
+
+  /// Makes it a map of the whole, #C x 2 in coordinates of the square lattice. A row that ends at u = c in the plane
+  /// goes on when it is moved by 2c, one that ends at v = c when it is turned by half as well. Cones are those of the
+  /// half, twice, and those in the plane.
+  TurnedMap unfolded(const TurnedMap& of_half, int turns) const;
+
+ private:
+  uv::UvArray unfolded(const uv::UvArray& uv) const;
+  void add_cones_in_plane(int turns, TurnedMap& map) const;
+
+  const mesh::Surface& whole_;
+  mesh::Mirror mirror_;
+  std::vector<int> corners_, vertices_;  // of the whole, of each corner and vertex of the half
+  std::shared_ptr<const mesh::Surface> surface_;
+  std::vector<int> lines_;
+};
 
 /// Which rows are lines: none; those along hard edges and smooth boundaries, which end there as well (whole) or lie
 /// anywhere across them (free); those in the plane between two halves that are alike.

@@ -54,20 +54,8 @@ Matrix3Xd field(const Matrix3Xd& at, int which, std::mt19937_64& numbers) {
   return a * phase.array().cos().matrix() + b * phase.array().sin().matrix();
 }
 
-}  // namespace
-
-MatrixXcd tangent_frames(const mesh::Surface& surface, const std::vector<int>& triangles) {
-  MatrixXcd result(3, static_cast<Index>(triangles.size()));
-  for (Index s = 0; s < result.cols(); ++s) {
-    const Vector3d origin = position(surface, triangles[s], 0);
-    const Vector3d x = (position(surface, triangles[s], 1) - origin).stableNormalized();
-    const Vector3d along2 = position(surface, triangles[s], 2) - origin;
-    const Vector3d y = (along2 - along2.dot(x) * x).stableNormalized();
-    result.col(s) = x.cast<Complex>() + Complex(0, 1) * y.cast<Complex>();
-  }
-  return result;
-}
-
+// Returns A with |A| = 1, #triangles x count, whose gradient of u runs along smooth fields in space. The fields are
+// fixed relative to the bounding box, so they do not depend on the surface's numbering. @pre the surface has positions
 MatrixXcd even_fields(const mesh::Surface& surface, const std::vector<int>& triangles, int count) {
   const MatrixXcd frames = tangent_frames(surface, triangles);
   const Matrix3Xd at = centres(surface, triangles);
@@ -78,6 +66,20 @@ MatrixXcd even_fields(const mesh::Surface& surface, const std::vector<int>& tria
     // The field's components in the frame: A (e_x + i e_y) has the gradient of u along its tangential part.
     const Eigen::ArrayXcd A = frames.conjugate().cwiseProduct(direction.cast<Complex>()).colwise().sum().transpose();
     result.col(i) = A / (A.abs() + std::numeric_limits<double>::min());
+  }
+  return result;
+}
+
+}  // namespace
+
+MatrixXcd tangent_frames(const mesh::Surface& surface, const std::vector<int>& triangles) {
+  MatrixXcd result(3, static_cast<Index>(triangles.size()));
+  for (Index s = 0; s < result.cols(); ++s) {
+    const Vector3d origin = position(surface, triangles[s], 0);
+    const Vector3d x = (position(surface, triangles[s], 1) - origin).stableNormalized();
+    const Vector3d along2 = position(surface, triangles[s], 2) - origin;
+    const Vector3d y = (along2 - along2.dot(x) * x).stableNormalized();
+    result.col(s) = x.cast<Complex>() + Complex(0, 1) * y.cast<Complex>();
   }
   return result;
 }

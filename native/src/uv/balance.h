@@ -14,10 +14,6 @@ namespace holomorph::uv {
 /// + i e_y), gradient of u plus i times gradient of v. @pre the surface has positions
 Eigen::MatrixXcd tangent_frames(const mesh::Surface& surface, const std::vector<int>& triangles);
 
-/// Returns A with |A| = 1, #triangles x count, whose gradient of u runs along smooth fields in space. The fields are
-/// fixed relative to the bounding box, so they do not depend on the surface's numbering. @pre the surface has positions
-Eigen::MatrixXcd even_fields(const mesh::Surface& surface, const std::vector<int>& triangles, int count);
-
 /// Finds coefficients c, g numbers, for which the texture density |theta|^2 of theta = sum_j c_j theta_j is most even.
 /// They have the least variance over the surface's area of log(|theta|^2 / mean + 1e-4), plus a small term against
 /// distortion (balance.cpp); the scale is free. The minimum is local, the best from several starts that are fixed in

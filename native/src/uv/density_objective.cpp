@@ -7,7 +7,6 @@
 #include "linear/blas.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/triangle_tree.h"
-#include "uv/minimise.h"
 
 namespace holomorph::uv {
 namespace {
@@ -157,6 +156,28 @@ VectorXd as_unknowns(const VectorXcd& c, Coefficients kind) {
   return x;
 }
 
+namespace {
+
+// Variance over the samples of log(q / mean q + floor), q = |A|^2, plus 3 times the mean of
+// r = |B|^2 / (|A|^2 + |B|^2 + floor mean q); and the gradient by (Re c, Im c). The second term is nearly 0 for a good
+// map. Without it |A| may be even where B, the discretisation error, is larger and flips the map.
+class DensityObjective {
+ public:
+  DensityObjective(const SampledParts& parts, Coefficients kind);
+  void set_floor(double floor) { floor_ = floor; }
+  double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const;
+
+ private:
+  Eigen::VectorXd parts(const Eigen::MatrixXd& M, const Eigen::VectorXd& x) const;
+  Eigen::VectorXd transposed(const Eigen::MatrixXd& M, const Eigen::VectorXd& w) const;
+
+  // Real parts of A and B above imaginary ones, of each unknown; where these are many, of the coefficients alone.
+  Eigen::MatrixXd M_, N_;
+  bool are_many_;
+  Eigen::Index columns_;  // of the unknowns, a row for each coefficient: real and imaginary parts
+  double floor_ = 0;
+};
+
 DensityObjective::DensityObjective(const SampledParts& parts, Coefficients kind)
     : M_(on_unknowns(parts.M, kind)),
       N_(on_unknowns(parts.N, kind)),
@@ -214,6 +235,8 @@ double DensityObjective::operator()(const VectorXd& x, VectorXd& gradient) const
   gradient += 2 * transposed(M_, weighted(by_q, A));
   return value;
 }
+
+}  // namespace
 
 double descend(const SampledParts& parts, Coefficients kind, VectorXd& x, const std::vector<double>& floors,
                int most_steps, const std::function<void()>& tick) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -9,6 +10,56 @@
 #include "mesh/half_edges.h"
 
 namespace holomorph::uv {
+
+/// When a minimiser stops.
+struct Minimising {
+  int most_steps = 200;
+  double progress = 1e-9;   ///< stops after a step that lowers the value by less than this part of it
+  double shortest = 1e-12;  ///< step, relative to the full one
+};
+
+/// @param objective double(const VectorXd& x, VectorXd& gradient)
+/// Minimises a function of a few variables by BFGS with backtracking (Nocedal & Wright 2006, algorithm 6.1,
+/// doi:10.1007/978-0-387-40065-5). @param x start in, minimum out. @return the least value
+/// @param H an inverse Hessian to begin with; empty: none is known
+template <class Objective>
+double minimise(const Objective& objective, Eigen::VectorXd& x, const Minimising& until, Eigen::MatrixXd H = {}) {
+  constexpr double kDecrease = 1e-4;  // Armijo
+  const auto n = x.size();
+  Eigen::VectorXd gradient, new_gradient;
+  double value = objective(x, gradient);
+  if (H.size() == 0) H = Eigen::MatrixXd::Identity(n, n) * (x.norm() / std::max(gradient.norm(), 1e-300));
+  for (int step = 0; step < until.most_steps; ++step) {
+    Eigen::VectorXd direction = -(H * gradient);
+    double slope = gradient.dot(direction);
+    if (!(slope < 0)) {
+      H.setIdentity();
+      direction = -gradient;
+      slope = -gradient.squaredNorm();
+      if (!(slope < 0)) break;
+    }
+    double length = 1, new_value = INFINITY;
+    Eigen::VectorXd candidate;
+    for (; length > until.shortest; length /= 2) {
+      candidate = x + length * direction;
+      new_value = objective(candidate, new_gradient);
+      if (new_value <= value + kDecrease * length * slope) break;
+    }
+    if (!(length > until.shortest)) break;
+    const Eigen::VectorXd s = candidate - x, y = new_gradient - gradient;
+    const double sy = s.dot(y);
+    if (sy > 1e-14 * s.norm() * y.norm()) {
+      const Eigen::VectorXd Hy = H * y;
+      H += ((1 + y.dot(Hy) / sy) / sy) * (s * s.transpose()) - (Hy * s.transpose() + s * Hy.transpose()) / sy;
+    }
+    const double before = value;
+    x = candidate;
+    value = new_value;
+    gradient = new_gradient;
+    if (before - value < until.progress * std::abs(before)) break;
+  }
+  return value;
+}
 
 inline constexpr int kSamples = 3000;  ///< triangles on which the density is sampled, evenly spaced by area
 
@@ -41,26 +92,6 @@ enum class Coefficients { complex, real };
 /// Converts c to the unknowns of the minimiser, and back: real parts, then imaginary ones where they are free.
 Eigen::VectorXcd as_complex(const Eigen::VectorXd& x, Coefficients kind);
 Eigen::VectorXd as_unknowns(const Eigen::VectorXcd& c, Coefficients kind);
-
-/// Variance over the samples of log(q / mean q + floor), q = |A|^2, plus 3 times the mean of
-/// r = |B|^2 / (|A|^2 + |B|^2 + floor mean q); and the gradient by (Re c, Im c). The second term is nearly 0 for a good
-/// map. Without it |A| may be even where B, the discretisation error, is larger and flips the map.
-class DensityObjective {
- public:
-  DensityObjective(const SampledParts& parts, Coefficients kind);
-  void set_floor(double floor) { floor_ = floor; }
-  double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const;
-
- private:
-  Eigen::VectorXd parts(const Eigen::MatrixXd& M, const Eigen::VectorXd& x) const;
-  Eigen::VectorXd transposed(const Eigen::MatrixXd& M, const Eigen::VectorXd& w) const;
-
-  // Real parts of A and B above imaginary ones, of each unknown; where these are many, of the coefficients alone.
-  Eigen::MatrixXd M_, N_;
-  bool are_many_;
-  Eigen::Index columns_;  // of the unknowns, a row for each coefficient: real and imaginary parts
-  double floor_ = 0;
-};
 
 /// The last floor under the density, relative to its mean.
 inline constexpr double kDensityFloor = 1e-4;

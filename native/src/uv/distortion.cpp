@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "uv/quality.h"
-#include "uv/quantiles.h"
 
 namespace holomorph::uv {
 namespace {

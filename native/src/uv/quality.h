@@ -1,15 +1,51 @@
 // Distortion of UV maps.
 #pragma once
 
+#include <array>
+#include <complex>
 #include <optional>
 #include <vector>
 
+#include "base/execution.h"
 #include "base/page_allocator.h"
 #include "base/workers.h"
 #include "uv/direction.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::uv {
+
+/// Shares at which the range of densities is measured.
+inline constexpr double kLow = 0.05, kHigh = 0.95;
+
+/// Quantiles of weighted values: weights of values >= 0 by the leading bits of the values, of which there are 16
+/// classes in each octave: they are in the order of the values. Only the items of the class with a quantile are visited
+/// again. Fewer values than classes are all in one, which is visited sooner than all classes. Values and weights
+/// outlive this.
+class Distribution {
+ public:
+  Distribution(const Array<double>& values, const Array<double>& weights, Workers& workers);
+
+  /// The value below which this fraction of the total weight lies; 0 where there is none. Cost: linear
+  double quantile(double fraction) const;
+
+ private:
+  struct Weighted {
+    double value, weight;
+  };
+  static constexpr int kMost = 1 << 15;
+
+  std::size_t begin(int part) const { return values_.size() * part / parts_; }
+  std::size_t class_of(double value) const;
+  std::vector<Weighted> items_of(std::size_t k) const;
+  static double quantile(std::vector<Weighted>& items, double wanted);
+
+  const Array<double>& values_;
+  const Array<double>& weights_;
+  Workers& workers_;
+  const int parts_;  // number of parts processed in parallel
+  std::vector<double> classes_;
+  double total_ = 0;
+};
 
 /// What s1 / s2 counts at most in its mean, so that no single triangle decides it; also that of a collapsed one.
 inline constexpr double kMostAngle = 10;
@@ -48,5 +84,18 @@ Quality of_density(Quality quality, double density);
 /// The quality of several maps together, each scaled like that. Triangles of one map follow those of the other.
 /// @param qualities at least one. @param densities one for each
 Quality joined(const std::vector<const Quality*>& qualities, const std::vector<double>& densities, Workers& workers);
+
+/// The ends of an edge of a curve.
+using Ends = std::array<std::complex<double>, 2>;
+
+/// Computes the part of the region around which closed curves wind that they wind around more than once: 0 where the
+/// map that they bound lies beside itself nowhere, or is not finite.
+///
+/// The winding number is exact along each of up to 4096 horizontal lines at equal distances, the area the sum of the
+/// lengths: an overlap lower than their distance may lie between two of them. A curve of many edges across all lines,
+/// as around a star, has fewer lines.
+/// @param curve directed edges, which make closed curves. @throws Cancelled
+/// Cost: O(m log m) for m crossings, at most half a million or 64 for each edge.
+double overlapping_part(const std::vector<Ends>& curve, Execution& execution);
 
 }  // namespace holomorph::uv

@@ -1,5 +1,5 @@
 // The Laplacian of functions that turn by quarters, on a graph with their parts for vertices.
-#include "evening/turned_solver.h"
+#include "evening/turned_functions.h"
 
 #include <gtest/gtest.h>
 

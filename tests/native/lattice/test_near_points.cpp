@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/errors.h"
-#include "lattice/near_points.h"
+#include "lattice/reduction.h"
 #include "lattices.h"
 
 using namespace holomorph::lattice;

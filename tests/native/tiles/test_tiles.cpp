@@ -8,8 +8,7 @@
 
 #include "mesh/make_surface.h"
 #include "tiles/cells.h"
-#include "tiles/lines.h"
-#include "tiles/places.h"
+#include "tiles/lines_and_places.h"
 
 namespace holomorph::tiles {
 namespace {

@@ -1,12 +1,16 @@
 #include "solver/direct/sparse_cholesky.h"
 
 #include <cmath>
+#include <future>
 #include <new>
 
 #include "base/errors.h"
 #include "base/execution.h"
 #include "linear/blas.h"
-#include "solver/direct/foreign_threads.h"
+
+#ifndef _WIN32
+#include <unistd.h>
+#endif
 
 #ifdef HOLOMORPH_WITH_CHOLMOD
 #include <Eigen/CholmodSupport>
@@ -16,6 +20,21 @@
 
 namespace holomorph::solver {
 namespace {
+
+// Whether this process was made by fork after the library was loaded.
+#ifndef _WIN32
+const pid_t kLoadedIn = getpid();
+bool is_forked() { return getpid() != kLoadedIn; }
+#else
+bool is_forked() { return false; }
+#endif
+
+// Calls work(), on a thread of its own in a process made by fork. The calling thread may remember OpenMP threads of an
+// earlier factorisation, which only the parent has. It would wait for them for ever.
+template <class Work>
+auto on_sound_thread(const Work& work) {
+  return is_forked() ? std::async(std::launch::async, work).get() : work();
+}
 
 using Lower = Eigen::SparseMatrix<double>;
 

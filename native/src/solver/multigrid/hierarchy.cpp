@@ -1,12 +1,28 @@
 #include "solver/multigrid/hierarchy.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "linear/dense.h"
 #include "solver/multigrid/coarsening.h"
 
 namespace holomorph::solver {
 namespace {
+
+constexpr int kLeft = std::numeric_limits<int>::max();
+// The fewest chunks in a segment: with fewer, too many chunks need another segment.
+constexpr int kShortestSegment = 32;
+// Segments for each thread: more than one, so that others can take work from a thread that comes late.
+constexpr int kSegmentsPerThread = 2;
+
+// After which chunk of the first loop a chunk may be done, given those times for the loop before; kLeft if it needs
+// chunks that are not in the segment `begin` .. `end` - 1.
+int ready(int chunk, const std::vector<int>& needs, const std::vector<int>& before, int begin, int end) {
+  int time = before[chunk];
+  for (const int c : needs) time = c < begin || c >= end ? kLeft : std::max(time, before[c]);
+  return time;
+}
 
 Eigen::MatrixXd dense(const SparseRows& A) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(A.size(), A.size());
@@ -139,6 +155,35 @@ Array<char> fixed_flags(int n, const std::vector<int>& fixed) {
   return flags;
 }
 
+// Lists the chunks of kChunkRows in which the rows of M have columns, for `chunks` chunks of `each` rows.
+ChunkNeeds chunk_needs(const SparseRows& M, int each, int chunks, Workers& workers) {
+  ChunkNeeds needs(chunks);
+  run_throwing(workers, chunks, [&](int chunk) {
+    const int begin = std::min(chunk * each, M.size()), end = std::min(begin + each, M.size());
+    std::vector<char> found(chunks, 0);
+    for (int i = begin; i < end; ++i) {
+      for (const Entry& entry : M[i]) {
+        const int need = entry.column / kChunkRows;
+        if (found[need] == 0) needs[chunk].push_back(need);
+        found[need] = 1;
+      }
+    }
+  });
+  return needs;
+}
+
+// Adds the inverse relation: where d needs c, c needs d, too.
+ChunkNeeds symmetrised(const ChunkNeeds& needs) {
+  ChunkNeeds result = needs;
+  for (int chunk = 0; chunk < static_cast<int>(needs.size()); ++chunk) {
+    for (const int c : needs[chunk]) {
+      const bool known = std::find(needs[c].begin(), needs[c].end(), chunk) != needs[c].end();
+      if (!known) result[c].push_back(chunk);
+    }
+  }
+  return result;
+}
+
 // The order of the loops over a level. The last of those up may write what the one before reads, so that it needs both
 // directions: of two entries w_ij and w_ji of a matrix symmetric up to rounding one may be 0.
 void order_loops(Level& level, Workers& workers) {
@@ -149,8 +194,8 @@ void order_loops(Level& level, Workers& workers) {
   level.up = Wavefront(chunks, {needs_A, symmetrised(needs_A)}, workers.count());
 }
 
-}  // namespace
-
+// Both symmetric, computed in double precision. Cost: cubic in the size of A, which is a few hundred.
+// @throws SolverError if A is not positive semi-definite
 CoarsestInverse coarsest_inverse(const Operator& coarsest) {
   const Eigen::MatrixXd A = dense(coarsest.A);
   CoarsestInverse result{pseudo_inverse(A), {}};
@@ -158,6 +203,9 @@ CoarsestInverse coarsest_inverse(const Operator& coarsest) {
   return result;
 }
 
+// Takes over the weights of L, without those that are only rounding.
+// @param fixed one flag per vertex, or empty for none
+// @throws std::bad_alloc, Cancelled
 Operator finest_operator(const Laplacian& L, Array<char> fixed, Execution& execution) {
   const Array<float> sizes = row_sizes(L, execution.workers());
   Operator result = empty_operator(L.size(), std::move(fixed));
@@ -175,6 +223,11 @@ Operator finest_operator(const Laplacian& L, Array<char> fixed, Execution& execu
   return result;
 }
 
+// Computes P^T A P, summed in double precision. It is kept as differences, since its rows sum to 0. A coarse vertex is
+// fixed where its C-point is.
+// @param P interpolation() @param R its transpose
+// @throws std::bad_alloc, Cancelled
+// Cost: linear, in parallel.
 Operator coarse_operator(const Operator& fine, const Coarsening& coarse, const EqualRows& P, const SparseRows& R,
                          Execution& execution) {
   std::vector<SparseAccumulator<double>> accumulators(execution.threads(), SparseAccumulator<double>(coarse.count));
@@ -197,6 +250,32 @@ Operator coarse_operator(const Operator& fine, const Coarsening& coarse, const E
     write_measures(measures, kCoarseStep, I, result);
   });
   return result;
+}
+
+}  // namespace
+
+Wavefront::Wavefront(int chunks, const std::vector<ChunkNeeds>& needs, int threads)
+    : segments_(threads * std::min(kSegmentsPerThread, chunks / (kShortestSegment * threads))),
+      left_(needs.size() + 1) {
+  std::vector<std::vector<int>> time(left_.size(), std::vector<int>(chunks, kLeft));
+  const auto count = static_cast<std::int64_t>(segments_.size());
+  for (std::int64_t s = 0; s < count; ++s) {
+    const int begin = static_cast<int>(chunks * s / count), end = static_cast<int>(chunks * (s + 1) / count);
+    std::vector<std::vector<Step>> at(end - begin);
+    for (int loop = 0; loop < static_cast<int>(time.size()); ++loop) {
+      for (int c = begin; c < end; ++c) {
+        // A chunk of a later loop follows, in its segment, as soon as the last chunk that it needs is done.
+        time[loop][c] = loop == 0 ? c : ready(c, needs[loop - 1][c], time[loop - 1], begin, end);
+        if (time[loop][c] != kLeft) at[time[loop][c] - begin].push_back({loop, c});
+      }
+    }
+    for (const auto& steps : at) segments_[s].insert(segments_[s].end(), steps.begin(), steps.end());
+  }
+  for (std::size_t loop = 0; loop < time.size(); ++loop) {
+    for (int c = 0; c < chunks; ++c) {
+      if (time[loop][c] == kLeft) left_[loop].push_back(c);
+    }
+  }
 }
 
 Hierarchy make_hierarchy(const Laplacian& L, const std::vector<int>& fixed, Execution& execution) {

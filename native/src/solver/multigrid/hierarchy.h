@@ -7,34 +7,60 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "solver/laplace_solver.h"
 #include "solver/multigrid/coarsening.h"
-#include "solver/multigrid/wavefront.h"
+#include "solver/multigrid/sparse_rows.h"
 
 namespace holomorph::solver {
+
+/// For every chunk of a loop the chunks of the loop before whose results it reads.
+using ChunkNeeds = std::vector<std::vector<int>>;
+
+/// Several loops over the same rows, interleaved: each starts before the previous one has ended, while its rows are
+/// still in the cache. This is the order in which their chunks are done. Every thread goes through segments of
+/// consecutive chunks. It does the next chunk of the first loop, then those of the later loops that need no more than
+/// what is done in the segment. Those that need another segment are left for the end. As each row is written by one
+/// chunk of one loop, and sums are kept by chunk, the results do not depend on the order.
+class Wavefront {
+ public:
+  Wavefront() = default;
+  /// @param needs of the second loop, the third ...
+  Wavefront(int chunks, const std::vector<ChunkNeeds>& needs, int threads);
+
+  /// Calls loop(chunk) for every chunk of every loop, none before those that it needs. @pre loops do not throw
+  template <class... Loops>
+  void run(Workers& workers, const Loops&... loops) const {
+    const auto call = [&](int loop, int chunk) {
+      int number = 0;
+      ((number++ == loop ? loops(chunk) : void()), ...);
+    };
+    constexpr int kAnyNumber = 0;  // any number of segments is worth a second thread
+    workers.run(
+        static_cast<int>(segments_.size()),
+        [&](int, int segment) {
+          for (const Step& step : segments_[segment]) call(step.loop, step.chunk);
+        },
+        kAnyNumber);
+    for (int loop = 0; loop < static_cast<int>(sizeof...(Loops)); ++loop) {
+      const std::vector<int>& left = left_[loop];
+      workers.run(static_cast<int>(left.size()), [&](int, int k) { call(loop, left[k]); });
+    }
+  }
+
+ private:
+  struct Step {
+    int loop, chunk;
+  };
+  std::vector<std::vector<Step>> segments_;
+  std::vector<std::vector<int>> left_;  // chunks per loop
+};
 
 struct CoarsestInverse {
   Eigen::MatrixXf natural;    ///< pseudo-inverse of A
   Eigen::MatrixXf dirichlet;  ///< inverse of the part of A without the fixed vertices, 0 at these; empty without any
 };
-
-/// Both symmetric, computed in double precision. Cost: cubic in the size of A, which is a few hundred.
-/// @throws SolverError if A is not positive semi-definite
-CoarsestInverse coarsest_inverse(const Operator& coarsest);
-
-/// Takes over the weights of L, without those that are only rounding.
-/// @param fixed one flag per vertex, or empty for none
-/// @throws std::bad_alloc, Cancelled
-Operator finest_operator(const Laplacian& L, Array<char> fixed, Execution& execution);
-
-/// Computes P^T A P, summed in double precision. It is kept as differences, since its rows sum to 0. A coarse vertex is
-/// fixed where its C-point is.
-/// @param P interpolation() @param R its transpose
-/// @throws std::bad_alloc, Cancelled
-/// Cost: linear, in parallel.
-Operator coarse_operator(const Operator& fine, const Coarsening& coarse, const EqualRows& P, const SparseRows& R,
-                         Execution& execution);
 
 struct Level {
   Operator op;

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "base/errors.h"
-#include "forms/singular_part.h"
+#include "forms/third_kind.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::tiling {

@@ -9,7 +9,6 @@
 #include "linear/dense.h"
 #include "tiling/notation.h"
 #include "uv/density_objective.h"
-#include "uv/minimise.h"
 
 namespace holomorph::tiling {
 namespace {

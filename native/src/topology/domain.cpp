@@ -1,4 +1,4 @@
-#include "topology/shortest_paths.h"
+#include "topology/domain.h"
 
 #include <algorithm>
 #include <cstddef>

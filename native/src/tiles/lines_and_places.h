@@ -1,8 +1,9 @@
-// The points of a surface at which its tile coordinates are whole numbers.
+// The points of a surface at which its tile coordinates are whole numbers, and the lines along which one of them is.
 #pragma once
 
 #include <vector>
 
+#include "tiles/pieces.h"
 #include "tiles/tile_coordinates.h"
 
 namespace holomorph::tiles {
@@ -22,5 +23,17 @@ struct Places {
 /// Cost: linear in triangles, rows in these and places, in parallel; the same at any number of threads. @throws
 /// SolverError for too many, Cancelled
 Places places(const mesh::Surface& surface, const TileCoordinates& coordinates, Execution& execution);
+
+/// Line l has the points offsets[l] .. offsets[l + 1] - 1, the first not repeated where it closes.
+struct Lines {
+  Locations points;
+  std::vector<int> offsets{0};  ///< #L + 1
+  std::vector<char> is_closed;  ///< #L
+};
+
+/// Finds all lines of the first coordinate, from edge to edge. A line ends on the boundary, at the star of a pole, and
+/// where other lines meet it, as at a branch point. The order is that of the first edges.
+/// Cost: linear in triangles and points. @throws SolverError for too many points, Cancelled
+Lines lines(const mesh::Surface& surface, const TileCoordinates& coordinates, Execution& execution);
 
 }  // namespace holomorph::tiles
