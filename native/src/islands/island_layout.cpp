@@ -21,9 +21,9 @@ namespace {
 
 // Joins flat islands edge to edge into nets that do not overlap.
 
-constexpr int kMostTriangles = 4096;                          // the most in a net: all pairs of two nets are tested
-constexpr double kSameLength = 1e-3;                          // difference over the longer side
-const double kTurned = std::cos(5 * std::numbers::pi / 180);  // of an island that is held
+constexpr int kMostTriangles = 4096;                            // the most in a net: all pairs of two nets are tested
+constexpr double kSameLength = 1e-3;                            // difference over the longer side
+const double kHeldTurn = std::cos(5 * std::numbers::pi / 180);  // of an island that is held
 
 // z -> turn z + shift
 struct Motion {
@@ -81,7 +81,7 @@ class Nets {
     if (!(longer > 0) || std::abs(std::abs(to) - std::abs(from)) > kSameLength * longer) return true;
     const Complex turn = to / from / std::abs(to / from);
     const bool is_turned = std::ranges::any_of(islands_[other], [&](int island) {
-      return is_held_[island] && (turn * motions_[island].turn).real() < kTurned;
+      return is_held_[island] && (turn * motions_[island].turn).real() < kHeldTurn;
     });
     if (is_turned) return false;
     // Middles coincide: a small difference in length is shared by both ends.
