@@ -24,7 +24,7 @@ class TurnedMaps {
   const mesh::Surface& surface() const { return *surface_; }
 
   /// The map with about this number of tiles at its median density. Where triangles stay flipped, cones that lie
-  /// further apart are tried, unless they are chosen. @throws TopologyError for chosen ones, as with_holes
+  /// further apart are tried, unless they are chosen. @throws TopologyError for chosen ones
   /// @param evenness as in evening/evening.h. @throws SolverError, Cancelled
   TurnedMap turned_map(double tiles, double evenness, Execution& execution);
 
