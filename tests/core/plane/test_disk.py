@@ -26,6 +26,7 @@ from stars import mean_angle_off_the_stars, neighbours, vertex_at
 
 EXACT = 1e-12
 SOLVER = 1e-8
+KEPT = 1e-3  # relative, by which lengths along a free boundary of few edges change for it to close
 
 
 # ---- the Riemann map ---------------------------------------------------------------------------------------------
@@ -130,7 +131,7 @@ def test_three_boundary_edges_without_room(faces):
     uv = np.empty((len(structure.surface.vertices), 2))
     uv[structure.surface.corner_vertices] = structure.uv([])
     expected, sides = (np.linalg.norm(p[[0, 1, 2]] - p[[1, 2, 0]], axis=1) for p in (points, uv))
-    assert np.abs(sides - expected).max() < SOLVER * expected.max()
+    assert np.abs(sides - expected).max() < KEPT * expected.max()
     quality = structure.quality(structure.uv([]))
     assert not quality.flipped.any()
     assert quality.mean_angle < (1 + 1e-9 if len(faces) == 1 else 2)
