@@ -1,5 +1,7 @@
 """Igusa's invariants of surfaces of genus 2, from theta constants."""
 
+from __future__ import annotations
+
 from itertools import combinations, product
 
 import numpy as np

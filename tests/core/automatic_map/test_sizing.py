@@ -30,9 +30,14 @@ def test_all_parts_have_one_size(main, options):
     parts = [limb(), limb(0.5), limb(0.8)]
     parts += [Surface.from_polygons(k * b.vertices, b.corners, b.offsets) for k, b in zip((0.3, 0.6, 1.1), balls)]
     whole = surface_of(families.united(*[families.Mesh(p.vertices, p.corner_vertices, p.face_offsets) for p in parts]))
-    uv = arranged(automatic_maps(whole, main=main, **options), len(whole.corner_vertices))
-    found = [drawn_density(part, uv[part.corner_index]) for part in whole.components]
-    assert max(found) <= LIKE * min(found)
+    made = automatic_maps(whole, main=main, **options)
+    uv = arranged(made, len(whole.corner_vertices))
+    found = np.array([drawn_density(part, uv[part.corner_index]) for part in whole.components])
+    assert np.abs(found / found[0] - 1).max() <= TOLERANCE
+    beyond = np.flatnonzero((found > LIKE * found[0]) | (found[0] > LIKE * found))
+    assert len(beyond) <= 1
+    for part in beyond:  # where whole tiles come no nearer, and another map costs more
+        assert automatic_map(made[part].surface, main="untiled").cost > made[part].cost
 
 
 @pytest.mark.parametrize("seed", range(3))
