@@ -205,6 +205,8 @@ def test_doors_agree(name, turns, tmp_path):
         (tmp_path / door.__name__).mkdir()
         answers[door.__name__] = door(path, tmp_path / door.__name__, turns)
     button, turned = answers.pop("by_button", None), TURNED if path.suffix in (".obj", *SCENES) else NEAR
+    if not answers:
+        pytest.skip("no door but Blender's own importer reads it here")
     first = next(iter(answers.values()))
     near = TURNED if path.suffix in SCENES else NEAR  # Blender reads these for batches
     assert all(same(first, answer, near) for answer in answers.values()), answers
