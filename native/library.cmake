@@ -33,6 +33,7 @@ endif()
 # The headers that the public ones reach; the others are internal. They name each other from native/src
 # ("mesh/surface.h"), and for others from include ("holomorph/mesh/surface.h"): names like mesh are not in their way.
 set(staged ${CMAKE_CURRENT_BINARY_DIR}/include/holomorph)
+file(REMOVE_RECURSE ${staged}) # of an earlier configuration, with headers that are gone
 list(JOIN rooms "|" any_room)
 set(reached ${public})
 set(waiting ${public})

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/held.h"
 #include "mesh/triangle_geometry.h"
 #include "uv/balance.h"
 
@@ -125,7 +126,7 @@ bool PoleBasis::is_place(int vertex, const std::vector<char>& allowed) const {
 }
 
 MatrixXcd PoleBasis::derivatives(const std::vector<int>& triangles) const {
-  const auto count = structure_.harmonic.functions->cols();
+  const auto count = held(structure_.harmonic.functions).cols();
   return 2 * uv::sampled_parts(surface(), {triangles, uv::values_on_sides(surface(), *sides_, harmonic(), triangles)},
                                MatrixXcd::Identity(count, count))
                  .M;
