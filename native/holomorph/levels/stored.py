@@ -22,18 +22,9 @@ ROWS = {
 }
 """The type and shape of one row of each."""
 
-# What NumPy raises for bytes that are no file of arrays. It takes memory for what the first bytes promise.
-DAMAGED = (
-    ValueError,
-    KeyError,
-    EOFError,
-    OSError,
-    NotImplementedError,
-    RuntimeError,
-    MemoryError,
-    BadZipFile,
-    zlib.error,
-)
+# What NumPy and zipfile raise for bytes that are no file of arrays: RuntimeError also for ways of compression that they
+# do not know, MemoryError for what the first bytes of an array ask for.
+DAMAGED = ValueError, KeyError, EOFError, OSError, RuntimeError, MemoryError, BadZipFile, zlib.error
 
 
 def arrays_of(native):
@@ -42,9 +33,7 @@ def arrays_of(native):
 
 
 def native_of(given):
-    """The native progressive mesh of its arrays; every count, index and split is checked.
-
-    Raises InvalidMesh"""
+    """The native progressive mesh of its arrays; every count, index and split is checked. Raises InvalidMesh"""
     for name, (kind, shape) in ROWS.items():
         if name not in given:
             raise InvalidMesh(f"the progressive mesh has no array {name}")
