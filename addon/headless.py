@@ -59,8 +59,7 @@ def parse(arguments):
     if not hasattr(bpy.types, "HOLOMORPH_PT_view3d"):  # the add-on is not enabled
         importlib.import_module(__package__).register()
     parser = Parser("holomorph", description="Presses buttons of Holomorph.", epilog=addresses.DOCUMENTATION)
-    opened = Path(bpy.data.filepath or "no file")
-    parser.add_argument("file", nargs="?", type=Path, default=opened, help="a .blend file, or a model to import")
+    parser.add_argument("file", nargs="?", type=Path, default=bpy.data.filepath or "no file", help=".blend or a model")
     text = "a button, by default maps; may be repeated, each followed by its properties"
     parser.add_argument("--press", dest="steps", action="append", choices=PRESSES, help=text)
     text = "a property of the button, by the name and with the value that Python has for it"
@@ -100,8 +99,8 @@ def _value(button, name, text):
             raise TypeError(f"it is not from {about.hard_min:g} to {about.hard_max:g}")
         if about.subtype == "DIR_PATH" and not Path(text).is_dir():
             raise TypeError("there is no such folder")
-    except (AttributeError, TypeError) as error:
-        raise ValueError(f"--set {name}={text}: {error}") from error
+    except (AttributeError, TypeError, ValueError) as error:
+        raise ValueError(f"--set {name}={text}: {_told(error)}") from error
     return value
 
 
@@ -129,8 +128,9 @@ def process(options):
 
 def _told(error):
     """What tells of an error in one of Blender's operators, which may be a whole traceback."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    return [line for line in lines if not line.startswith(("Location:", "File "))][-1].removeprefix("Error: ")
+    lines = map(str.strip, str(error).splitlines())
+    last = [line for line in lines if line and not line.startswith(("Location:", "File "))][-1]
+    return last.removeprefix("Error: ").removeprefix("bpy_struct: item.attr = val:").strip(": ")
 
 
 def _opened(path, names):
@@ -146,8 +146,8 @@ def _opened(path, names):
         bpy.ops.object.mode_set(mode="OBJECT")
     bpy.context.view_layer.update()
     found = {o.name: o for o in bpy.context.visible_objects if o.type == "MESH" and not gathering.is_helper(o)}
-    for name in set(names) - found.keys() if found else ["*"]:
-        raise RuntimeError(f"{path}: no mesh object {name} is seen in it")
+    for name in {f" {name}" for name in set(names) - found.keys()} if found else [""]:
+        raise RuntimeError(f"{path}: no mesh object{name} is seen in it")
     return [found[name] for name in names or sorted(found)]
 
 
