@@ -9,9 +9,9 @@
 #include "mesh/components.h"
 #include "mesh/io/read.h"
 #include "mesh/make_surface.h"
-#include "multiresolution/paper_forms.h"
 #include "progressive/simplify.h"
 #include "structure/harmonic_solver.h"
+#include "structure/paper_forms.h"
 #include "structure/topology.h"
 #include "topology/fundamental_domain.h"
 
@@ -46,7 +46,7 @@ System system_of(const mesh::HalfEdges& half_edges, const Array<double>& weights
 }
 
 System system_of(const mesh::Surface& surface, const mesh::Discretisation& discretisation,
-                 const multiresolution::PaperLevels& levels) {
+                 const structure::PaperLevels& levels) {
   Execution silent;
   const auto& half_edges = discretisation.half_edges;
   const auto topology = structure::find_topology(surface, half_edges, silent, levels.bases);
@@ -79,13 +79,13 @@ void print_run(const System& system, const Eigen::MatrixXd& start, solver::Scali
   std::cout << ']';
 }
 
-void print_paper(const System& system, const multiresolution::PaperLevels& levels, solver::Scaling scaling) {
-  multiresolution::PaperOptions options;
+void print_paper(const System& system, const structure::PaperLevels& levels, solver::Scaling scaling) {
+  structure::PaperOptions options;
   options.scaling = scaling;
   Execution silent;
   double seconds = 0;
-  const auto start = timed(
-      seconds, [&] { return multiresolution::paper_estimation(levels, thresholds(levels, options), options, silent); });
+  const auto start =
+      timed(seconds, [&] { return structure::paper_estimation(levels, thresholds(levels, options), options, silent); });
   std::cout << "{\"levels_seconds\": " << seconds << ", \"levels\": [";
   const char* separator = "";
   for (const auto& level : start.levels) {
@@ -112,7 +112,7 @@ int main(int count, char** arguments) {
     return topology::natural_classes(half_edges, domain);
   });
   timed(collapsing, [&] { return progressive::progressive_mesh(surface, progressive::Order::quadric, silent); });
-  const auto levels = timed(levels_made, [&] { return multiresolution::paper_levels(surface, silent); });
+  const auto levels = timed(levels_made, [&] { return structure::paper_levels(surface, silent); });
   const System system = system_of(surface, discretisation, levels);
   std::cout << "{\"faces\": " << surface.triangles.size() << ", \"right_hand_sides\": " << system.B.cols()
             << ", \"homology_of_surface\": " << homology << ", \"progressive_mesh\": " << collapsing

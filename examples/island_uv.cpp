@@ -9,10 +9,10 @@ int main(int argc, char** argv) try {
   holomorph::Execution execution;
   const auto whole = holomorph::mesh::make_surface(holomorph::mesh::read(argv[1]), execution);
   const auto part = holomorph::mesh::component(whole, 0, execution).surface;
-  holomorph::islands::IslandOptions options;
-  options.evenness = holomorph::evening::kUsualEvenness;
+  holomorph::flat::IslandOptions options;
+  options.evenness = holomorph::uv::kUsualEvenness;
   options.up = holomorph::uv::Up::kY;  // as in OBJ files
-  const auto made = holomorph::islands::island_map(part, options, execution);
+  const auto made = holomorph::flat::island_map(part, options, execution);
   if (!made) throw holomorph::Error("no piece of the mesh may be closed");
   std::cout << std::setprecision(17) << made->count << " " << made->cost() << "\n" << made->uv << "\n";
 } catch (const holomorph::Error& error) {

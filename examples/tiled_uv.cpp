@@ -14,7 +14,7 @@ int main(int argc, char** argv) try {
   poles.evened = true;
   holomorph::tiling::TilingOptions options;
   options.tiles = 64;
-  options.evenness = holomorph::evening::kUsualEvenness;
+  options.evenness = holomorph::uv::kUsualEvenness;
   const auto made = tile(place(part, poles, execution), options, execution);  // made.uv: #corners x 2
   const auto found = quality(made, {}, execution);
   std::cout << std::setprecision(17) << made.conformal->poles.size() << " poles, angle distortion " << found.mean_angle

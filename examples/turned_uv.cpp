@@ -10,12 +10,12 @@ int main(int argc, char** argv) try {
   holomorph::Execution execution;
   const auto whole = holomorph::mesh::make_surface(holomorph::mesh::read(argv[1]), execution);
   const auto part = std::make_shared<holomorph::mesh::Surface>(holomorph::mesh::component(whole, 0, execution).surface);
-  holomorph::turns::TilerOptions options;
+  holomorph::tiling::TilerOptions options;
   options.along = {{0, 1, 0}, false};  // rows run level
   options.up = holomorph::uv::Up::kY;  // as in OBJ files
-  options.rows = holomorph::turns::Rows::kWhole;
-  holomorph::turns::TurnedTiler tiler(part, options, execution);
-  const auto made = tiler.tile(tiler.usual_tiles(), holomorph::evening::kUsualEvenness, execution);
+  options.rows = holomorph::tiling::Rows::kWhole;
+  holomorph::tiling::TurnedTiler tiler(part, options, execution);
+  const auto made = tiler.tile(tiler.usual_tiles(), holomorph::uv::kUsualEvenness, execution);
   const holomorph::uv::Marks marks{.cones = static_cast<int>(made.map.cones.size())};
   std::cout << std::setprecision(17) << marks.cones << " " << made.quality.mean_angle << " "
             << holomorph::uv::cost(made.quality, marks) << "\n"

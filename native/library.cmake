@@ -1,8 +1,7 @@
 # The C++ library as others link it: all rooms in libholomorph.a, and the public headers in include/holomorph.
 include(GNUInstallDirs)
 
-set(rooms base linear lattice mesh tiles progressive solver topology forms elements conformal uv evening structure tiling turns
-  moduli plane islands choice multiresolution)
+set(rooms base linear mesh tiles progressive solver topology forms uv structure tiling flat moduli choice)
 set(public holomorph.h)
 if(TARGET OpenMeshCore)
   list(APPEND rooms openmesh)

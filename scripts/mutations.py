@@ -8,39 +8,39 @@ CORE = "tests/core/"
 LENGTHS = CORE + "mesh/test_metric_errors.py"
 WEIGHTS = "native:MetricErrors*"
 DELAUNAY = CORE + "mesh/test_delaunay.py"
-SUMS = CORE + "conformal/test_gram_errors.py"
-BOUNDS = CORE + "conformal/test_certified_bounds.py"
-FORMS = CORE + "conformal/test_conformal.py"
+SUMS = CORE + "forms/test_gram_errors.py"
+BOUNDS = CORE + "forms/test_certified_bounds.py"
+FORMS = CORE + "forms/test_conformal.py"
 LOOKS = CORE + "automatic_map/test_looks.py"
 EYE = CORE + "uv/test_appearance.py"
 AUTOMATIC = CORE + "automatic_map/test_automatic_map.py"
 PARTS = CORE + "automatic_map/test_parts.py"
 SIZING = CORE + "automatic_map/test_sizing.py"
-EVENED = CORE + "evening/test_evened_forms.py"
-THIN = CORE + "evening/test_evened_maps.py"
+EVENED = CORE + "uv/test_evened_forms.py"
+THIN = CORE + "uv/test_evened_maps.py"
 VERDICT = CORE + "uv/test_verdict.py"
-PAPER = CORE + "multiresolution/test_paper_solver.py"
+PAPER = CORE + "structure/test_paper_solver.py"
 MEMORY = CORE + "structure/test_memory_limit.py::test_the_estimate_and_the_peak"
 EQUIVALENCE = CORE + "moduli/test_equivalence_rounding.py"
 SURFACES = CORE + "moduli/test_conformal_equivalence.py"
 KNOWN = CORE + "moduli/test_known_periods.py"
 THETA = CORE + "moduli/test_theta_constants.py"
 SIMILAR = CORE + "moduli/test_similarities.py"
-REFINED = CORE + "conformal/test_refined_triangles.py"
-NARROW = CORE + "conformal/test_narrow_bounds.py"
-ELEMENTS = CORE + "conformal/test_element_energies.py"
-REFERENCE = CORE + "conformal/test_reference_elements.py"
+REFINED = CORE + "forms/test_refined_triangles.py"
+NARROW = CORE + "forms/test_narrow_bounds.py"
+ELEMENTS = CORE + "forms/test_element_energies.py"
+REFERENCE = CORE + "forms/test_reference_elements.py"
 DENSE = "native:*CertainBounds*"
 DIGITS = "native:DoubleDouble*"
 SLIVERS = CORE + "mesh/test_slivers.py"
 WILD = CORE + "mesh/test_wild_vertices.py"
-TURNED = CORE + "turns/test_turned_tilings.py"
-LINES = CORE + "turns/test_turned_lines.py"
-MIRRORED = CORE + "turns/test_mirrored.py"
-ASKED = CORE + "turns/test_asked_turns.py"
-OVERLAP = CORE + "islands/test_overlap.py"
-MIXED = CORE + "islands/test_mixed_map.py"
-CHOSEN = CORE + "turns/test_chosen_cones.py"
+TURNED = CORE + "tiling/test_turned_tilings.py"
+LINES = CORE + "tiling/test_turned_lines.py"
+MIRRORED = CORE + "tiling/test_mirrored.py"
+ASKED = CORE + "tiling/test_asked_turns.py"
+OVERLAP = CORE + "flat/test_overlap.py"
+MIXED = CORE + "flat/test_mixed_map.py"
+CHOSEN = CORE + "tiling/test_chosen_cones.py"
 DIRECTION = CORE + "uv/test_direction.py"
 GLB = CORE + "files/test_gltf.py"
 
@@ -93,7 +93,7 @@ MUTATIONS = (
         ("harmonicity", "0.5, faces),\n          relative", "0.5, faces),\n          0.1 * relative", FORMS),
     )
     | of(
-        ROOM + "conformal/certain_bounds.cpp",
+        ROOM + "forms/certain_bounds.cpp",
         ("dense-unit", "epsilon() / 2", "epsilon() / 20", DENSE),
         ("dense-products", "2 * G.rows() + 2", "0.2 * G.rows() + 0.2", DENSE),
         ("dense-inverse", "2 * X - above_congruent(X, A)", "X", DENSE),
@@ -111,12 +111,12 @@ MUTATIONS = (
         ("sums-cut", "(a - (sum - taken)) + (b - taken)", "b - taken", DIGITS),
     )
     | of(
-        ROOM + "elements/reference_element.cpp",
+        ROOM + "forms/reference_element.cpp",
         ("elements-double", "DoubleDouble{G(n, s)} * row[s]", "DoubleDouble{G(n, s) * row[s].high}", REFERENCE),
         ("elements-jacobi", "jacobi(b - 1, 2 * a - 2)", "jacobi(b - 1, 2 * a - 1)", REFERENCE),
     )
     | of(
-        ROOM + "elements/element_forms.cpp",
+        ROOM + "forms/element_forms.cpp",
         ("elements-metric", "sums[i].uncertain += own", "sums[i].uncertain += 0.9 * own", ELEMENTS),
         ("elements-signs", "if (k % 2 == 1) signs", "if (k % 2 == 0) signs", ELEMENTS),
     )
@@ -139,7 +139,7 @@ MUTATIONS = (
     )
     # Solvers, memory, invariants.
     | of(
-        ROOM + "multiresolution/paper_forms.cpp",
+        ROOM + "structure/paper_forms.cpp",
         ("paper-strict", "report.converged || report.is_rounding", "report.converged", PAPER),
         ("paper-levels", "row = std::move(system.row);", "row = system.row; X.setZero();", PAPER),
     )
@@ -206,7 +206,7 @@ MUTATIONS = (
         ("poles-too-many", "kEvened = 2.75", "kEvened = 1.4", LOOKS),
     )
     | of(
-        ROOM + "evening/evening.h",
+        ROOM + "uv/evening.h",
         ("evening-power", "kUsualPower = 0.6", "kUsualPower = 0.9", LOOKS),
     )
     | of(
@@ -256,36 +256,36 @@ MUTATIONS = (
     | of(ROOM + "mesh/border_paths.cpp", ("paths-stop", "kShortest = 1e-12", "kShortest = 0", SLIVERS))
     | of(ROOM + "mesh/hard_edges.cpp", ("slivers-own-normals", "sums[owners[f]]", "sums[f]", SLIVERS))
     | of(ROOM + "uv/quality.cpp", ("overlap-twice", "std::abs(winding) > 1", "std::abs(winding) > 2", OVERLAP))
-    | of(ROOM + "islands/pieces.cpp", ("windows-shortest", "std::pair(-a.length", "std::pair(a.length", MIXED))
-    | of(ROOM + "islands/island_layout.cpp", ("same-place", "kSame = 1e-5", "kSame = 1e-6", SLIVERS))
+    | of(ROOM + "flat/pieces.cpp", ("windows-shortest", "std::pair(-a.length", "std::pair(a.length", MIXED))
+    | of(ROOM + "flat/island_layout.cpp", ("same-place", "kSame = 1e-5", "kSame = 1e-6", SLIVERS))
     | of(
-        ROOM + "turns/line_values.cpp",
+        ROOM + "tiling/cones/line_values.cpp",
         ("lines-signs", "a.factor * b.factor, std::move(less)", "1, std::move(less)", LINES),
         ("lines-offsets", "add_to(own.offset, next.offset, own.factor);", "", LINES),
     )
     | of(
-        ROOM + "turns/lines.cpp",
+        ROOM + "tiling/cones/lines.cpp",
         ("lines-price", "kPrice = 12", "kPrice = 0.5", LINES),
         ("lines-walk", "turned[via[v]] += n;", "turned[via[v]] -= n;", LINES),
         ("lines-jagged", "kMostTurned = 3", "kMostTurned = 300", LINES),
     )
-    | of(ROOM + "turns/rounding.cpp", ("turned-sizes", "kOtherSize = 1;", "kOtherSize = 0;", TURNED))
-    | of(ROOM + "turns/turned_map.cpp", ("cones-sum", "left != 0 && holes.empty()", "false", CHOSEN))
-    | of(ROOM + "islands/island_layout.cpp", ("held-islands", "cos(5 *", "cos(150 *", DIRECTION))
-    | of(ROOM + "turns/upright.cpp", ("upright-turns", "sine : sine;", "sine : -sine;", DIRECTION))
+    | of(ROOM + "tiling/cones/rounding.cpp", ("turned-sizes", "kOtherSize = 1;", "kOtherSize = 0;", TURNED))
+    | of(ROOM + "tiling/cones/turned_map.cpp", ("cones-sum", "left != 0 && holes.empty()", "false", CHOSEN))
+    | of(ROOM + "flat/island_layout.cpp", ("held-islands", "cos(5 *", "cos(150 *", DIRECTION))
+    | of(ROOM + "tiling/cones/upright.cpp", ("upright-turns", "sine : sine;", "sine : -sine;", DIRECTION))
     | of(
         ROOM + "uv/direction.cpp",
         ("direction-steep", "kSteep = 0.35", "kSteep = 0.2", DIRECTION),
         ("direction-turns", "period = 360.0 / turns", "period = 180.0 / turns", DIRECTION),
     )
     | of(PACKAGE + "quality/direction.py", ("direction-slanted", "SLANTED = 25.0", "SLANTED = 20.0", DIRECTION))
-    | of(ROOM + "turns/turned_space.cpp", ("lines-parts", "% 2 == 0 ? 1 : 0;", "% 2 == 0 ? 0 : 1;", LINES))
+    | of(ROOM + "tiling/cones/turned_space.cpp", ("lines-parts", "% 2 == 0 ? 1 : 0;", "% 2 == 0 ? 0 : 1;", LINES))
     | of(
-        ROOM + "evening/turned_functions.cpp",
+        ROOM + "uv/turned_functions.cpp",
         ("unknowns-turn", "2 * b + 1, weight * turn.imag()", "2 * b + 1, -weight * turn.imag()", TURNED),
     )
-    | of(ROOM + "evening/strain_energy.cpp", ("thin-triangles", "kThinArea = 1e-6", "kThinArea = 1e-2", THIN))
-    | of(ROOM + "evening/turned_functions.cpp", ("cover-signs", "part == 0 ? -im : im", "im", "native:TurnedSolver*"))
+    | of(ROOM + "uv/strain_energy.cpp", ("thin-triangles", "kThinArea = 1e-6", "kThinArea = 1e-2", THIN))
+    | of(ROOM + "uv/turned_functions.cpp", ("cover-signs", "part == 0 ? -im : im", "im", "native:TurnedSolver*"))
     | of(
         ROOM + "choice/tiling_search.cpp",
         ("lines-asked", "(are_edged && !edges", "(false && !edges", ASKED),
@@ -312,9 +312,9 @@ MUTATIONS = (
     )
     | of(PACKAGE + "batch/textured.py", ("centre-of-turns", "+ np.array(found.centre) / images", "", GLB))
     | of(
-        ROOM + "turns/turned_tiling.cpp",
+        ROOM + "tiling/cones/turned_tiling.cpp",
         ("mirror-jumps", "low[1]) * std::conj(high[0]", "low[0]) * std::conj(high[1]", MIRRORED),
     )
     | of(ROOM + "mesh/mirror.cpp", ("mirror-side", "= following[at->second]", "= at->second", MIRRORED))
-    | of(ROOM + "turns/turned_tiling.cpp", ("lines-ends", "kMostEnds = 0.02", "kMostEnds = 0.2", LINES))
+    | of(ROOM + "tiling/cones/turned_tiling.cpp", ("lines-ends", "kMostEnds = 0.02", "kMostEnds = 0.2", LINES))
 )

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace holomorph::lattice {
+namespace holomorph::linear {
 
 IntegerMatrix random_integers(Eigen::Index rows, Eigen::Index columns, std::int64_t largest, unsigned seed) {
   std::mt19937_64 engine(seed);
@@ -61,4 +61,4 @@ double mean_defect(const Eigen::MatrixXd& basis) {
   return std::exp(ratio.log().mean());
 }
 
-}  // namespace holomorph::lattice
+}  // namespace holomorph::linear

@@ -1,9 +1,9 @@
 // Lattices for the tests, all with integer bases: what is derived from them is known exactly.
 #pragma once
 
-#include "lattice/reduction.h"
+#include "linear/reduction.h"
 
-namespace holomorph::lattice {
+namespace holomorph::linear {
 
 /// Entries from -largest to largest, the same for the same seed everywhere.
 IntegerMatrix random_integers(Eigen::Index rows, Eigen::Index columns, std::int64_t largest, unsigned seed);
@@ -28,4 +28,4 @@ IntegerMatrix badly_scaled(Eigen::Index rows, Eigen::Index columns, int bits, un
 /// Geometric mean of |b_k| / R_kk: the n-th root of the orthogonality defect.
 double mean_defect(const Eigen::MatrixXd& basis);
 
-}  // namespace holomorph::lattice
+}  // namespace holomorph::linear

@@ -56,7 +56,7 @@ def island_map(
 
 
 class IslandSearch:
-    """The islands of a surface, looked for as far as they are worth it; islands/island_search.h."""
+    """The islands of a surface, looked for as far as they are worth it; flat/island_search.h."""
 
     def __init__(self, surface, evenness, threads, is_upright):
         self._surface, self._threads, self._known = surface, threads, None

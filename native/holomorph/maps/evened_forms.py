@@ -36,7 +36,7 @@ def evened(
 
     Raises ValueError for what does not fit, TopologyError for a surface that is not connected; SolverError; Cancelled.
 
-    Source: Neff, Eidel and Martin 2016, doi:10.1007/s00205-016-1007-x, has the energy (evening/strain_energy.h).
+    Source: Neff, Eidel and Martin 2016, doi:10.1007/s00205-016-1007-x, has the energy (uv/strain_energy.h).
     """
     count = check_options(solver, threads)
     evenness, uv = checked_evenness(evenness), _checked(surface, uv)

@@ -16,7 +16,7 @@
 //   const auto c = structure::balanced_coefficients(found, *forms, execution);
 //   const auto uv = structure::uv_map(found, *forms, c, execution);
 //
-// Seamless tilings are those of choice::Tiler, those that turn turns::TurnedTiler's; islands::island_map cuts at hard
+// Seamless tilings are those of choice::Tiler, those that turn tiling::TurnedTiler's; flat::island_map cuts at hard
 // edges. uv::quality measures any map, and uv::cost says what an eye minds of it. Errors are the exceptions of
 // base/errors.h.
 #pragma once
@@ -24,14 +24,13 @@
 #include "base/errors.h"
 #include "base/execution.h"
 #include "choice/automatic_map.h"
-#include "evening/evening.h"
-#include "islands/island_search.h"
+#include "flat/disk_map.h"
+#include "flat/island_search.h"
+#include "flat/rectangle.h"
 #include "mesh/components.h"
 #include "mesh/io/read.h"
 #include "mesh/make_surface.h"
 #include "mesh/surface.h"
-#include "plane/disk_map.h"
-#include "plane/rectangle.h"
 #include "progressive/refinement.h"
 #include "progressive/simplify.h"
 #include "structure/conformal_structure.h"
@@ -39,8 +38,9 @@
 #include "structure/pole_structure.h"
 #include "structure/primal_forms.h"
 #include "structure/structure.h"
+#include "tiling/cones/turned_tiling.h"
 #include "tiling/tiling.h"
-#include "turns/turned_tiling.h"
 #include "uv/appearance.h"
 #include "uv/distortion.h"
+#include "uv/evening.h"
 #include "uv/quality.h"

@@ -9,15 +9,15 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
-#include "choice/arrangement.h"
+#include "flat/arrangement.h"
 
 namespace holomorph::bindings {
 namespace {
 
 using namespace pybind11::literals;
-using choice::Arrangement;
-using choice::Laid;
-using choice::Square;
+using flat::Arrangement;
+using flat::Laid;
+using flat::Square;
 
 // A map: surface, its area, (#C, 2) UVs, their density, whether it is a tiling, its turns, and the corners of the mesh.
 using Given = std::tuple<std::shared_ptr<mesh::Surface>, double, Contiguous<double>, double, bool, int,
@@ -54,17 +54,16 @@ Square square(const std::vector<Given>& maps, const Arrangement& arrangement) {
 
 // The facade has checked that there are so many corners.
 uv::UvArray arranged(const std::vector<Given>& maps, int corners, const Arrangement& arrangement) {
-  return of_maps(
-      maps, [&](const auto& own, Workers& workers) { return choice::arranged(own, corners, arrangement, workers); });
+  return of_maps(maps,
+                 [&](const auto& own, Workers& workers) { return flat::arranged(own, corners, arrangement, workers); });
 }
 
 double unit_length(const std::vector<Given>& maps, const Arrangement& arrangement) {
-  return of_maps(maps,
-                 [&](const auto& own, Workers& workers) { return choice::unit_length(own, arrangement, workers); });
+  return of_maps(maps, [&](const auto& own, Workers& workers) { return flat::unit_length(own, arrangement, workers); });
 }
 
 uv::UvArray on_grid(uv::UvArray uv) {
-  choice::round_to_grid(uv);
+  flat::round_to_grid(uv);
   return uv;
 }
 
@@ -80,7 +79,7 @@ void bind_choice(py::module_& m) {
       .def_property_readonly("filling", &Square::filling)
       .def_property_readonly("used", &Square::used)
       .def_property_readonly("sizes", &Square::sizes);
-  m.attr("scattered") = choice::kScattered;
+  m.attr("scattered") = flat::kScattered;
   m.def("square", &square, "maps"_a, "arrangement"_a);
   m.def("arranged", &arranged, "maps"_a, "corners"_a, "arrangement"_a);
   m.def("unit_length", &unit_length, "maps"_a, "arrangement"_a);

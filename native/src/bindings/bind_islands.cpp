@@ -8,17 +8,17 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
-#include "islands/island_search.h"
-#include "islands/pieces.h"
-#include "islands/shelves.h"
-#include "islands/split_overlaps.h"
+#include "flat/island_search.h"
+#include "flat/pieces.h"
+#include "flat/shelves.h"
+#include "flat/split_overlaps.h"
 
 namespace holomorph::bindings {
 namespace {
 
 using namespace pybind11::literals;
-using islands::Islands;
-using islands::IslandSearch;
+using flat::Islands;
+using flat::IslandSearch;
 using SharedIslands = std::shared_ptr<const Islands>;
 
 // Keeps the surface.
@@ -29,7 +29,7 @@ class Search {
     Execution execution;
     const py::gil_scoped_release unlocked;
     search_ =
-        std::make_unique<IslandSearch>(*surface_, islands::IslandOptions{evenness, up_axis(up), is_upright}, execution);
+        std::make_unique<IslandSearch>(*surface_, flat::IslandOptions{evenness, up_axis(up), is_upright}, execution);
   }
 
   SharedIslands known() const { return search_->known(); }
@@ -59,12 +59,12 @@ py::array parted(const mesh::Surface& surface, const Contiguous<double>& uv, con
   {
     const py::gil_scoped_release unlocked;
     execution.stage("overlaps", 0.0, 1.0);
-    parts = islands::parted(surface, flat, execution);
+    parts = flat::parted(surface, flat, execution);
   }
   return give(std::move(parts));
 }
 
-py::array as_array(const std::vector<islands::Extent>& rows) {
+py::array as_array(const std::vector<flat::Extent>& rows) {
   py::array_t<double> result({static_cast<py::ssize_t>(rows.size()), py::ssize_t{2}});
   std::copy_n(rows.data()->data(), result.size(), result.mutable_data());
   return read_only(std::move(result));
@@ -72,13 +72,13 @@ py::array as_array(const std::vector<islands::Extent>& rows) {
 
 // ((n, 2) lower left corners, (w, h) of the whole)
 std::pair<py::array, std::pair<double, double>> on_shelves(const Contiguous<double>& sizes, double width, double gap) {
-  const islands::Shelves made = islands::on_shelves(rows<double, 2>(sizes), width, gap);
+  const flat::Shelves made = flat::on_shelves(rows<double, 2>(sizes), width, gap);
   return {as_array(made.corners), {made.whole[0], made.whole[1]}};
 }
 
 // ((n, 2) lower left corners, side)
 std::pair<py::array, double> pack(const Contiguous<double>& sizes, double margin) {
-  const islands::Packing made = islands::pack(rows<double, 2>(sizes), margin);
+  const flat::Packing made = flat::pack(rows<double, 2>(sizes), margin);
   return {as_array(made.corners), made.side};
 }
 
@@ -102,7 +102,7 @@ Parts cut_apart(const mesh::Surface& surface, const Contiguous<int>& names) {
     const std::vector<int> own = values(names);
     const py::gil_scoped_release unlocked;
     Execution execution;
-    parts = islands::cut_apart(surface, own, execution);
+    parts = flat::cut_apart(surface, own, execution);
   }
   return given(std::move(parts));
 }
@@ -110,11 +110,11 @@ Parts cut_apart(const mesh::Surface& surface, const Contiguous<int>& names) {
 // (the parts, how far the cut is seen)
 std::pair<Parts, double> cut_in_hiding(const mesh::Surface& surface, const std::optional<std::array<double, 3>>& up,
                                        int threads, const py::object& progress) {
-  islands::CutInHiding cut;
+  flat::CutInHiding cut;
   {
     Execution execution(threads, callback(progress));
     const py::gil_scoped_release unlocked;
-    cut = islands::cut_in_hiding(surface, up, execution);
+    cut = flat::cut_in_hiding(surface, up, execution);
   }
   return {given(std::move(cut.parts)), cut.seen};
 }
@@ -153,7 +153,7 @@ void bind_islands(py::module_& m) {
   m.def("cut_in_hiding", &cut_in_hiding, "surface"_a, "up"_a, py::kw_only(), "threads"_a, "progress"_a);
   m.def("on_shelves", &on_shelves, "sizes"_a, "width"_a, "gap"_a);
   m.def("pack", &pack, "sizes"_a, "margin"_a);
-  m.def("fitting_margin", &islands::fitting_margin, "margin"_a, "count"_a);
+  m.def("fitting_margin", &flat::fitting_margin, "margin"_a, "count"_a);
 }
 
 }  // namespace holomorph::bindings

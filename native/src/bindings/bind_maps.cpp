@@ -9,20 +9,20 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/records.h"
-#include "evening/evening.h"
+#include "flat/free_boundary.h"
+#include "flat/rectangle.h"
+#include "flat/rectangle_corners.h"
 #include "forms/gram_matrices.h"
-#include "multiresolution/harmonic_map.h"
-#include "plane/free_boundary.h"
-#include "plane/rectangle.h"
-#include "plane/rectangle_corners.h"
+#include "structure/harmonic_map.h"
 #include "structure/memory_plan.h"
 #include "structure/solver_report.h"
+#include "uv/evening.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::bindings {
 namespace {
 
-using plane::PlaneMap;
+using flat::PlaneMap;
 using Complex = std::complex<double>;
 
 Eigen::Map<const uv::UvArray> corners(const Contiguous<double>& uv) { return {uv.data(), uv.shape(0), 2}; }
@@ -43,13 +43,13 @@ void place(const Contiguous<double>& uv, Complex factor, Complex origin, Complex
   uv::place(corners(uv), {factor, origin, target}, at, values, workers);
 }
 
-multiresolution::HarmonicMap harmonic_map(const mesh::Surface& surface, const Contiguous<double>& corner_values,
-                                          const std::string& solver, int threads, const py::object& progress_function) {
+structure::HarmonicMap harmonic_map(const mesh::Surface& surface, const Contiguous<double>& corner_values,
+                                    const std::string& solver, int threads, const py::object& progress_function) {
   using Rows = forms::RowMajorMatrix;
   const Rows given = Eigen::Map<const Rows>(corner_values.data(), corner_values.shape(0), corner_values.shape(1));
   Execution execution(threads, callback(progress_function));
   const py::gil_scoped_release unlocked;
-  return multiresolution::harmonic_map(surface, given, {solver}, execution);
+  return structure::harmonic_map(surface, given, {solver}, execution);
 }
 
 // #V x 2. The facade has checked shapes and vertices, and that the surface is connected.
@@ -62,8 +62,8 @@ py::array evened(const mesh::Surface& surface, const Contiguous<double>& uv, std
   {
     const py::gil_scoped_release unlocked;
     execution.stage("evening", 0.0, 1.0);
-    result = evening::evened(surface, std::move(given), {std::move(poles), std::move(u), std::move(v), {}, {}},
-                             evenness, execution, solver);
+    result = uv::evened(surface, std::move(given), {std::move(poles), std::move(u), std::move(v), {}, {}}, evenness,
+                        execution, solver);
     execution.finish();
   }
   return give_matrix(std::move(result));
@@ -89,7 +89,7 @@ py::array edge_weights(const mesh::Surface& surface) {
 }
 
 void bind_uv_maps(py::module_& m) {
-  using multiresolution::HarmonicMap;
+  using structure::HarmonicMap;
   py::class_<HarmonicMap>(m, "HarmonicMap")
       .def_property_readonly("moves", [](const HarmonicMap& map) { return copy(map.moves); })
       .def_readonly("solver", &HarmonicMap::solver);
@@ -118,11 +118,11 @@ std::shared_ptr<PlaneMap> rectangle(const mesh::Surface& surface, const std::vec
                                     const py::object& progress_function) {
   Execution execution(threads, callback(progress_function));
   const py::gil_scoped_release unlocked;
-  return std::make_shared<PlaneMap>(plane::rectangle_map(surface, corners, labels, {solver}, execution));
+  return std::make_shared<PlaneMap>(flat::rectangle_map(surface, corners, labels, {solver}, execution));
 }
 
 // One without a choice.
-auto plane_map(PlaneMap (*function)(const mesh::Surface&, const plane::Options&, Execution&)) {
+auto plane_map(PlaneMap (*function)(const mesh::Surface&, const flat::Options&, Execution&)) {
   return [function](const mesh::Surface& surface, const std::string& solver, int threads,
                     const py::object& progress_function) {
     Execution execution(threads, callback(progress_function));
@@ -158,10 +158,10 @@ void bind_plane_maps(py::module_& m) {
       .def("timings", [](const PlaneMap& map) { return map.seconds; });
   m.def("rectangle_map", &rectangle, py::arg("surface"), py::arg("corners"), py::arg("labels"), py::arg("solver"),
         py::arg("threads"), py::arg("progress"));
-  m.def("free_boundary_map", plane_map(&plane::free_boundary_map), py::arg("surface"), py::arg("solver"),
+  m.def("free_boundary_map", plane_map(&flat::free_boundary_map), py::arg("surface"), py::arg("solver"),
         py::arg("threads"), py::arg("progress"));
-  m.def("quarter_corners", of_surface(&plane::quarter_corners), py::arg("surface"));
-  m.def("clear_corners", of_surface(&plane::clear_corners), py::arg("surface"));
+  m.def("quarter_corners", of_surface(&flat::quarter_corners), py::arg("surface"));
+  m.def("clear_corners", of_surface(&flat::clear_corners), py::arg("surface"));
 }
 
 void bind_records(py::module_& m) {

@@ -9,8 +9,8 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
-#include "elements/element_forms.h"
-#include "elements/reference_element.h"
+#include "forms/element_forms.h"
+#include "forms/reference_element.h"
 #include "mesh/intrinsic_surface.h"
 #include "moduli/continuation.h"
 #include "moduli/equivalence.h"
@@ -257,11 +257,11 @@ void bind_nested_level(py::module_& m) {
   m.def("measure", &measure, py::arg("surface"), py::arg("classes"), py::arg("natural"), py::arg("functions"));
   m.def("measure_level", &measure_level, py::arg("surface"), py::arg("classes"), py::arg("natural"), py::arg("order"),
         py::arg("functions"));
-  m.def("element_bytes", &elements::bytes, py::arg("faces"), py::arg("order"), py::arg("forms"));
+  m.def("element_bytes", &forms::bytes, py::arg("faces"), py::arg("order"), py::arg("forms"));
   m.def(
       "reference_element",
       [](int order) {
-        const auto& [p, stiffness, wedge] = elements::reference_element(order);
+        const auto& [p, stiffness, wedge] = forms::reference_element(order);
         return py::make_tuple(copy(stiffness[0]), copy(stiffness[1]), copy(stiffness[2]), copy(wedge));
       },
       py::arg("order"));

@@ -42,7 +42,7 @@ StructurePointer solved(const Shared& made) {
   return truncated ? truncated->solved() : nullptr;
 }
 
-std::shared_ptr<plane::PlaneMap> plane_map(const Shared& made) {
+std::shared_ptr<flat::PlaneMap> plane_map(const Shared& made) {
   const auto plane = std::dynamic_pointer_cast<PlaneStructure>(made);
   return plane ? shared(plane->map()) : nullptr;
 }
@@ -95,7 +95,7 @@ void bind_any_structure(py::module_& m) {
       "kind"_a, "part"_a, "solved"_a);
   m.def(
       "plane_structure",
-      [](const std::string& kind, const MutablePart& part, const std::shared_ptr<plane::PlaneMap>& map,
+      [](const std::string& kind, const MutablePart& part, const std::shared_ptr<flat::PlaneMap>& map,
          double modulus) -> Shared { return std::make_shared<PlaneStructure>(kind_named(kind), part, map, modulus); },
       "kind"_a, "part"_a, "map"_a, "modulus"_a);
   m.def(

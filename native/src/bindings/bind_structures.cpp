@@ -10,12 +10,12 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/records.h"
-#include "conformal/certain_bounds.h"
-#include "multiresolution/paper_forms.h"
-#include "plane/disk_map.h"
+#include "flat/disk_map.h"
+#include "forms/certain_bounds.h"
 #include "structure/conformal_structure.h"
 #include "structure/harmonic_solver.h"
 #include "structure/nested_level.h"
+#include "structure/paper_forms.h"
 #include "structure/pole_structure.h"
 #include "structure/primal_forms.h"
 #include "structure/solver_report.h"
@@ -172,7 +172,7 @@ void bind_invariants(py::class_<Structure, StructurePointer>& type) {
            [](const Structure& s) {
              std::vector<Eigen::MatrixXd> below;
              for (const auto& gram : s.value.harmonic.invariants.energies.certain)
-               below.push_back(conformal::below_inverse(gram));
+               below.push_back(forms::below_inverse(gram));
              return matrices(below);
            })
       .def("residuals",
@@ -226,7 +226,7 @@ using Thresholds = std::optional<std::vector<std::int64_t>>;
 StructurePointer paper(const SurfacePointer& surface, const Thresholds& thresholds, int threads,
                        std::int64_t memory_limit, const py::object& progress) {
   return make({"auto", memory_limit}, threads, progress, [&](const Options& options, Execution& execution) {
-    return multiresolution::paper_structure(surface, options, execution, {thresholds});
+    return structure::paper_structure(surface, options, execution, {thresholds});
   });
 }
 
@@ -243,8 +243,8 @@ StructurePointer paper_of_level(const progressive::ProgressiveMesh& mesh, int sp
                                 const Thresholds& thresholds, int threads, std::int64_t memory_limit,
                                 const py::object& progress) {
   return make({"auto", memory_limit}, threads, progress, [&](const Options& options, Execution& execution) {
-    return multiresolution::paper_structure(surface, options, execution, {thresholds},
-                                            multiresolution::paper_levels(mesh, splits, *surface));
+    return structure::paper_structure(surface, options, execution, {thresholds},
+                                      structure::paper_levels(mesh, splits, *surface));
   });
 }
 
@@ -294,16 +294,16 @@ Eigen::VectorXcd balanced_coefficients(Structure& s, const py::object& progress)
 py::array disk_map(Structure& s) {
   Eigen::VectorXcd z;
   with_forms(s, [&](auto& forms, Execution& execution) {
-    z = plane::disk_map(s.value, forms.function(s.value.differentials.col(0), execution), execution.workers());
+    z = flat::disk_map(s.value, forms.function(s.value.differentials.col(0), execution), execution.workers());
   });
   return copy(z);
 }
 
 py::array sphere_map(Structure& s) {
-  plane::PointArray points;
+  flat::PointArray points;
   with_forms(s, [&](auto& forms, Execution& execution) {
-    plane::require_sphere(s.value);
-    points = plane::sphere_map(s.value, forms.function(s.value.differentials.col(0), execution), execution.workers());
+    flat::require_sphere(s.value);
+    points = flat::sphere_map(s.value, forms.function(s.value.differentials.col(0), execution), execution.workers());
   });
   return give_matrix(std::move(points));
 }

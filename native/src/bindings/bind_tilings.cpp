@@ -12,7 +12,7 @@
 #include "tiles/lines_and_places.h"
 #include "tiles/relief.h"
 #include "tiles/sharp_zones.h"
-#include "turns/turned_tiling.h"
+#include "tiling/cones/turned_tiling.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -25,7 +25,7 @@ using choice::TileOptions;
 using choice::Tiler;
 using Complex = std::complex<double>;
 
-const char* name_of(turns::Rows rows) {
+const char* name_of(tiling::Rows rows) {
   constexpr std::array<const char*, 4> kNames{"none", "whole", "free", "mirror"};
   return kNames[static_cast<std::size_t>(rows)];
 }
@@ -148,7 +148,7 @@ void bind_turned_tiling(py::module_& m) {
   m.def(
       "found_lines",
       [](const mesh::Surface& surface, const Contiguous<int>& marked) {
-        return give(turns::found_lines(surface, rows<int, 2>(marked)));
+        return give(tiling::found_lines(surface, rows<int, 2>(marked)));
       },
       "surface"_a, "marked"_a);
 }

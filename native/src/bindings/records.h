@@ -9,7 +9,7 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "structure/solved.h"
-#include "turns/turned_tiling.h"
+#include "tiling/cones/turned_tiling.h"
 #include "uv/zeros.h"
 
 namespace holomorph::bindings {
@@ -30,10 +30,10 @@ inline std::pair<py::array, py::array> zeros_by_columns(const std::vector<uv::Ze
 }
 
 /// "whole", "free", "mirror" or "none".
-inline turns::Rows rows_named(const std::string& lines) {
-  if (lines == "whole") return turns::Rows::kWhole;
-  if (lines == "free") return turns::Rows::kFree;
-  return lines == "mirror" ? turns::Rows::kMirror : turns::Rows::kNone;
+inline tiling::Rows rows_named(const std::string& lines) {
+  if (lines == "whole") return tiling::Rows::kWhole;
+  if (lines == "free") return tiling::Rows::kFree;
+  return lines == "mirror" ? tiling::Rows::kMirror : tiling::Rows::kNone;
 }
 
 /// A structure for Python.

@@ -7,8 +7,8 @@
 
 #include "choice/part.h"
 #include "choice/tilers.h"
-#include "evening/turned_functions.h"
 #include "uv/quality.h"
+#include "uv/turned_functions.h"
 
 namespace holomorph::choice {
 
@@ -43,7 +43,7 @@ class AnyStructure {
   /// #C x 2. @throws SolverError where a UV is not finite
   virtual uv::UvArray uv(const Eigen::VectorXcd& coefficients, Execution& execution) = 0;
   /// What evening keeps of such a map.
-  virtual evening::Kept kept(const Eigen::VectorXcd& coefficients, Execution& execution) = 0;
+  virtual uv::Kept kept(const Eigen::VectorXcd& coefficients, Execution& execution) = 0;
 
   /// The quality of a map, with a free boundary also of how much it covers itself. @param uv #C x 2
   uv::Quality quality(const uv::UvArray& uv, Execution& execution) const;

@@ -8,9 +8,9 @@
 
 #include "choice/solved_structures.h"
 #include "choice/truncated.h"
-#include "plane/free_boundary.h"
-#include "plane/rectangle.h"
-#include "plane/rectangle_corners.h"
+#include "flat/free_boundary.h"
+#include "flat/rectangle.h"
+#include "flat/rectangle_corners.h"
 #include "structure/conformal_structure.h"
 #include "structure/pole_structure.h"
 
@@ -26,14 +26,14 @@ double density_ratio(AnyStructure& made, Execution& execution) {
   return uv::quality(*made.triangulation(), uv, execution.workers()).density_ratio;
 }
 
-StructurePointer plane_structure(MapKind kind, const PartPointer& part, plane::PlaneMap map) {
-  return std::make_shared<PlaneStructure>(kind, part, std::make_shared<const plane::PlaneMap>(std::move(map)));
+StructurePointer plane_structure(MapKind kind, const PartPointer& part, flat::PlaneMap map) {
+  return std::make_shared<PlaneStructure>(kind, part, std::make_shared<const flat::PlaneMap>(std::move(map)));
 }
 
 StructurePointer rectangle(const PartPointer& part, const std::vector<int>& corners, const Options& options,
                            Execution& execution) {
   return plane_structure(MapKind::kRectangle, part,
-                         plane::rectangle_map(*part->surface, corners, part->labels, options, execution));
+                         flat::rectangle_map(*part->surface, corners, part->labels, options, execution));
 }
 
 std::shared_ptr<structure::Solved> with_poles(const PartPointer& part, const Options& options, Execution& execution) {
@@ -45,34 +45,34 @@ std::shared_ptr<structure::Solved> with_poles(const PartPointer& part, const Opt
 // The map of a disk without inner vertices: a rectangle that collapses no triangle, or else the map with a free
 // boundary, where it flips none.
 StructurePointer without_inner_vertices(const PartPointer& part, const Options& options, Execution& execution) {
-  const std::vector<int> quarters = plane::quarter_corners(*part->surface, execution);
-  plane::PlaneMap straight = plane::rectangle_map(*part->surface, quarters, part->labels, options, execution);
+  const std::vector<int> quarters = flat::quarter_corners(*part->surface, execution);
+  flat::PlaneMap straight = flat::rectangle_map(*part->surface, quarters, part->labels, options, execution);
   const bool is_whole = straight.collapsed_triangles.empty();
   StructurePointer result = plane_structure(MapKind::kRectangle, part, std::move(straight));
   if (is_whole) return result;
   StructurePointer free =
-      plane_structure(MapKind::kFlat, part, plane::free_boundary_map(*part->surface, options, execution));
+      plane_structure(MapKind::kFlat, part, flat::free_boundary_map(*part->surface, options, execution));
   const uv::Quality quality = free->quality(free->uv({}, execution), execution);
   return std::ranges::count(quality.flipped, 0) < std::ssize(quality.flipped) ? result : free;
 }
 
 StructurePointer disk_structure(const PartPointer& part, const Options& options, Execution& execution) {
   const mesh::Surface& surface = *part->surface;
-  if (const auto corners = plane::clear_corners(surface, execution))
+  if (const auto corners = flat::clear_corners(surface, execution))
     return rectangle(part, *corners, options, execution);
-  const bool has_four_sides = plane::boundary_length(surface, execution) > 3;
+  const bool has_four_sides = flat::boundary_length(surface, execution) > 3;
   std::shared_ptr<structure::Solved> solved;
   try {
     solved = with_poles(part, options, execution);
   } catch (const TopologyError&) {  // every vertex is next to the boundary
     if (has_four_sides) return without_inner_vertices(part, options, execution);
-    return plane_structure(MapKind::kFlat, part, plane::free_boundary_map(surface, options, execution));
+    return plane_structure(MapKind::kFlat, part, flat::free_boundary_map(surface, options, execution));
   }
   StructurePointer best = std::make_shared<Forms>(MapKind::kDisk, part, solved);
   double least = density_ratio(*best, execution);
   if (std::sqrt(least) <= kUneven) return best;
   std::vector<StructurePointer> others{std::make_shared<Forms>(MapKind::kLog, part, solved)};
-  if (has_four_sides) others.push_back(rectangle(part, plane::quarter_corners(surface, execution), options, execution));
+  if (has_four_sides) others.push_back(rectangle(part, flat::quarter_corners(surface, execution), options, execution));
   for (const StructurePointer& other : others) {
     if (const double ratio = density_ratio(*other, execution); ratio < least) best = other, least = ratio;
   }

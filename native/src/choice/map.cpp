@@ -6,9 +6,9 @@
 #include <sstream>
 #include <utility>
 
-#include "evening/evening.h"
 #include "uv/appearance.h"
 #include "uv/direction.h"
+#include "uv/evening.h"
 
 namespace holomorph::choice {
 namespace {
@@ -42,9 +42,9 @@ uv::UvArray evened(AnyStructure& structure, const Eigen::VectorXcd& coefficients
                    const uv::Quality& quality, double evenness, Execution& execution) {
   evenness *= std::min(1.0, kMostSpread / std::max(density_spread(quality), kMostSpread));
   const mesh::Surface& surface = *structure.triangulation();
-  const evening::Kept kept = structure.kept(coefficients, execution);
+  const uv::Kept kept = structure.kept(coefficients, execution);
   execution.stage("evening", 0.0, 1.0);
-  const uv::UvArray added = evening::evened(surface, uv, kept, evenness, execution);
+  const uv::UvArray added = uv::evened(surface, uv, kept, evenness, execution);
   uv::UvArray result = uv;
   for (Eigen::Index c = 0; c < result.rows(); ++c)
     result.row(c) += added.row(surface.polygons.corner_vertices[static_cast<std::size_t>(c)]);
@@ -107,7 +107,7 @@ Map::Map(PartPointer part, StructurePointer structure, SeamlessPointer made, Exe
   measure(execution);
 }
 
-Map::Map(PartPointer part, StructurePointer structure, std::shared_ptr<const islands::Islands> made, std::string why,
+Map::Map(PartPointer part, StructurePointer structure, std::shared_ptr<const flat::Islands> made, std::string why,
          Execution& execution)
     : part_(std::move(part)), structure_(std::move(structure)), why_(std::move(why)), islands_(std::move(made)) {
   measure(execution);
@@ -129,7 +129,7 @@ void Map::measure(Execution& execution) {
   cost_ = std::numeric_limits<double>::infinity();
   const uv::UvArray& map = uv();
   const double size = map.rows() > 0 ? (map.colwise().maxCoeff() - map.colwise().minCoeff()).maxCoeff() : 0;
-  if (size > kScattered * std::sqrt(density() * part_->area)) return;
+  if (size > flat::kScattered * std::sqrt(density() * part_->area)) return;
   uv::Marks marks{.poles = pole_count_};
   if (tiling_) marks.cones = static_cast<int>(tiling_->cones.size());
   if (islands_) marks.soft_seams = islands_->soft_length, marks.hard_seams = islands_->hard_length;

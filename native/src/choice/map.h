@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "choice/any_structure.h"
-#include "choice/arrangement.h"
 #include "choice/seamless_map.h"
-#include "islands/island_layout.h"
+#include "flat/arrangement.h"
+#include "flat/island_layout.h"
 #include "uv/distortion.h"
 
 namespace holomorph::choice {
@@ -20,7 +20,7 @@ struct Mixed {
   std::vector<SeamlessPointer> tilings;  ///< of the pieces that have one; their vertices are those of the part
   std::vector<mesh::Pair> seams;         ///< vertices of the edges where the UVs jump
   double evenness = 0;
-  double soft_length = 0, hard_length = 0;  ///< of seams, over the root of the area, as islands::Islands has them
+  double soft_length = 0, hard_length = 0;  ///< of seams, over the root of the area, as flat::Islands has them
 };
 
 /// The map of a combination of a structure's forms.
@@ -37,7 +37,7 @@ class Map {
   Map(PartPointer part, StructurePointer structure, FormMap made, std::string why, Execution& execution);
   /// "it has no visible seams" and so on
   Map(PartPointer part, StructurePointer structure, SeamlessPointer made, Execution& execution);
-  Map(PartPointer part, StructurePointer structure, std::shared_ptr<const islands::Islands> made, std::string why,
+  Map(PartPointer part, StructurePointer structure, std::shared_ptr<const flat::Islands> made, std::string why,
       Execution& execution);
   Map(PartPointer part, StructurePointer structure, std::shared_ptr<const Mixed> made, std::string why,
       Execution& execution);
@@ -48,7 +48,7 @@ class Map {
   /// Null for maps of another kind.
   const std::shared_ptr<const FormMap>& forms() const { return forms_; }
   const SeamlessPointer& tiling() const { return tiling_; }
-  const std::shared_ptr<const islands::Islands>& islands() const { return islands_; }
+  const std::shared_ptr<const flat::Islands>& islands() const { return islands_; }
   const std::shared_ptr<const Mixed>& mixed() const { return mixed_; }
 
   const uv::UvArray& uv() const;  ///< #C x 2
@@ -65,7 +65,7 @@ class Map {
   double density() const { return drawn_.median; }
   /// Root of the 95 % over 5 % quantile of that.
   double drawn_range() const;
-  /// The cost to the eye, see uv/appearance.h; infinite for a map that is `kScattered`.
+  /// The cost to the eye, see uv/appearance.h; infinite for a map that is `flat::kScattered`.
   double cost() const { return cost_; }
 
   /// The same with another reason.
@@ -79,7 +79,7 @@ class Map {
   std::string why_;
   std::shared_ptr<const FormMap> forms_;
   SeamlessPointer tiling_;
-  std::shared_ptr<const islands::Islands> islands_;
+  std::shared_ptr<const flat::Islands> islands_;
   std::shared_ptr<const Mixed> mixed_;
   int pole_count_ = 0;
   uv::Densities drawn_;
@@ -94,7 +94,7 @@ std::string size_range(const uv::Quality& quality);
 /// @param coefficients none: those of the balanced map
 /// @param is_upright turn the map until v runs up, as far as one turn can do that: by half turns and quarters where its
 /// boundary is straight
-/// @param evenness as in evening/evening.h; jumps stay, and so do straight and round boundaries
+/// @param evenness as in uv/evening.h; jumps stay, and so do straight and round boundaries
 /// @throws SolverError, Cancelled
 MapPointer form_map(const PartPointer& part, const StructurePointer& structure,
                     std::optional<Eigen::VectorXcd> coefficients, double evenness, bool is_upright, std::string why,

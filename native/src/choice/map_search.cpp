@@ -222,8 +222,8 @@ MapPointer MapSearch::instead_of_refused(const std::string& why, Execution& exec
 MapPointer MapSearch::less_bound(const MapPointer& made, double density, const Window& window, double near,
                                  Execution& execution) {
   Request request = request_;
-  if (made->tiling()->rows != turns::Rows::kNone) {
-    request.rows = turns::Rows::kNone;
+  if (made->tiling()->rows != tiling::Rows::kNone) {
+    request.rows = tiling::Rows::kNone;
   } else {
     request.tiling.lattice = made->tiling()->lattice;
     request.tiling.turns = 1;
@@ -261,7 +261,7 @@ MapPointer MapSearch::in_pieces(const MapPointer& rival, double density, int tri
 }
 
 // Whether islands have a seam across the smooth, or squares that differ, or there are none.
-bool MapSearch::may_be_better(const islands::Islands* flat) const {
+bool MapSearch::may_be_better(const flat::Islands* flat) const {
   if (!request_.part->has_positions()) return false;
   return !flat || flat->soft_length > kMostSoft || uv::cost_of_squares(flat->quality) > kFlat;
 }

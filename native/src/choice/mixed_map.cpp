@@ -6,15 +6,15 @@
 #include <string>
 #include <utility>
 
-#include "choice/arrangement.h"
+#include "flat/arrangement.h"
 #include "mesh/facets.h"
 #include "mesh/hard_edges.h"
 
 namespace holomorph::choice {
 namespace {
 
-std::vector<Laid> laid(const std::vector<MappedPiece>& pieces) {
-  std::vector<Laid> result;
+std::vector<flat::Laid> laid(const std::vector<MappedPiece>& pieces) {
+  std::vector<flat::Laid> result;
   for (const auto& [piece, map] : pieces) {
     result.push_back({map->part()->surface.get(),
                       map->part()->area,
@@ -101,10 +101,11 @@ std::string why(const Mixed& made, std::size_t pieces, bool is_cut) {
 
 MapPointer mixed_map(const PartPointer& part, const StructurePointer& structure, const std::vector<MappedPiece>& pieces,
                      double evenness, const std::optional<double>& cut, Execution& execution) {
-  const std::vector<Laid> maps = laid(pieces);
-  const double unit = unit_length(maps, {}, execution.workers());
+  const std::vector<flat::Laid> maps = laid(pieces);
+  const double unit = flat::unit_length(maps, {}, execution.workers());
   auto made = std::make_shared<Mixed>();
-  made->uv = arranged(maps, static_cast<int>(part->surface->polygons.corner_vertices.size()), {}, execution.workers());
+  made->uv =
+      flat::arranged(maps, static_cast<int>(part->surface->polygons.corner_vertices.size()), {}, execution.workers());
   made->quality = joined_quality(pieces, unit, execution.workers());
   for (const auto& [piece, map] : pieces) {
     if (map->tiling()) made->tilings.push_back(of_part(*map->tiling(), piece->vertex_index));

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "choice/untiled.h"
-#include "islands/island_search.h"
+#include "flat/island_search.h"
 #include "mesh/facets.h"
 #include "mesh/hard_edges.h"
 #include "uv/appearance.h"
@@ -31,7 +31,7 @@ std::vector<mesh::Pair> marked_on(const Piece& piece, const mesh::Surface& surfa
 
 }  // namespace
 
-PieceSearch::PieceSearch(Request request, StructurePointer structure, std::shared_ptr<const islands::Islands> flat,
+PieceSearch::PieceSearch(Request request, StructurePointer structure, std::shared_ptr<const flat::Islands> flat,
                          Budget& budget)
     : request_(std::move(request)), structure_(std::move(structure)), flat_(std::move(flat)), budget_(budget) {}
 
@@ -69,11 +69,11 @@ std::vector<PieceSearch::Division> PieceSearch::divisions(Execution& execution) 
   const std::vector<double> bent = mesh::breaks(surface);
   std::vector<Division> result;
   std::vector<int> known;
-  for (const double degrees : islands::kHardAngles) {
-    if (degrees <= islands::kSmoothAngle) continue;
+  for (const double degrees : flat::kHardAngles) {
+    if (degrees <= flat::kSmoothAngle) continue;
     std::vector<char> is_hard(bent.size());
     std::ranges::transform(bent, is_hard.begin(), [&](double own) { return own > mesh::radians(degrees); });
-    std::vector<int> names = islands::names_of_pieces(surface, is_hard);
+    std::vector<int> names = flat::names_of_pieces(surface, is_hard);
     if (std::ranges::count(names, names.front()) == std::ssize(names) || names == known) continue;
     known = names;
     Division division{std::move(names), {}, {}};
@@ -112,7 +112,7 @@ std::optional<TilingSearch> PieceSearch::search_of(const Piece& piece, bool is_c
       [&] {
         const PartPointer part = is_cut ? piece.part : closed(piece.part, execution);
         Request request = request_;
-        if (is_cut) request.rows = turns::Rows::kNone;
+        if (is_cut) request.rows = tiling::Rows::kNone;
         request.tiling.marked = marked_on(piece, *part->surface, std::move(request.tiling.marked));
         return std::optional<TilingSearch>(std::in_place, part, automatic_structure(part, {}, execution),
                                            std::move(request), budget_);
@@ -185,7 +185,7 @@ PieceSearch::Minded PieceSearch::least_minded(const Division& division, const st
 // The map with these tilings; null without any, and where the rest has none.
 MapPointer PieceSearch::glued(const Division& division, const std::vector<Tiled>& tiled, Execution& execution) {
   if (tiled.empty()) return nullptr;
-  std::vector<int> names(division.names.size(), islands::kRest);
+  std::vector<int> names(division.names.size(), flat::kRest);
   for (std::size_t f = 0; f < names.size(); ++f) {
     const int name = division.names[f];
     if (std::ranges::any_of(tiled, [&](const Tiled& one) { return one.piece->name == name; })) names[f] = name;
@@ -197,7 +197,7 @@ MapPointer PieceSearch::glued(const Division& division, const std::vector<Tiled>
       [&] {
         parts = cut_apart(*request_.part, names, execution);
         for (const Piece& each : parts) {
-          if (each.name == islands::kRest) maps.push_back({&each, untiled(each, execution)});
+          if (each.name == flat::kRest) maps.push_back({&each, untiled(each, execution)});
         }
         return true;
       },

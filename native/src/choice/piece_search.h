@@ -20,8 +20,7 @@ class PieceSearch {
  public:
   /// @param structure of the part. @param flat its islands, null without any: only where these have a seam across the
   /// smooth or stretch a tiling is tried. The budget outlives this
-  PieceSearch(Request request, StructurePointer structure, std::shared_ptr<const islands::Islands> flat,
-              Budget& budget);
+  PieceSearch(Request request, StructurePointer structure, std::shared_ptr<const flat::Islands> flat, Budget& budget);
 
   /// The map of least cost, if it is below that of another one, to which that of rows that turn is added. Null without.
   /// @param rival null for none
@@ -65,7 +64,7 @@ class PieceSearch {
 
   Request request_;
   StructurePointer structure_;
-  std::shared_ptr<const islands::Islands> flat_;
+  std::shared_ptr<const flat::Islands> flat_;
   Budget& budget_;
   std::optional<std::vector<Division>> found_, cut_;  // what was looked for already; cut_ none or one
   std::map<std::vector<int>, MapPointer> rest_;       // of pieces without tiling, by their polygons

@@ -64,7 +64,7 @@ double soft_length(const Piece& piece, const std::vector<mesh::Pair>& seams) {
 }
 
 // Whether the islands have a seam across the smooth, longer than `most`, or stretch. Gives the piece what is theirs.
-bool is_minded(Piece& piece, const islands::Islands& flat, const std::vector<mesh::Pair>& seams, double most,
+bool is_minded(Piece& piece, const flat::Islands& flat, const std::vector<mesh::Pair>& seams, double most,
                Execution& execution) {
   const mesh::Surface& surface = *piece.part->surface;
   uv::UvArray& uv = piece.uv.emplace(static_cast<Eigen::Index>(piece.corner_index.size()), 2);
@@ -110,12 +110,10 @@ SeamlessMap inside(const SeamlessMap& tiling, const mesh::Surface& surface) {
 
 }  // namespace
 
-double Piece::turn(const uv::UvArray& other) const {
-  return uv ? islands::turn_between(*part->surface, *uv, other) : 0;
-}
+double Piece::turn(const uv::UvArray& other) const { return uv ? flat::turn_between(*part->surface, *uv, other) : 0; }
 
 std::vector<Piece> cut_apart(const Part& part, const std::vector<int>& names, Execution& execution) {
-  std::vector<Piece> result = pieces_of(part, islands::cut_apart(*part.surface, names, execution), execution);
+  std::vector<Piece> result = pieces_of(part, flat::cut_apart(*part.surface, names, execution), execution);
   for (Piece& piece : result) piece.name = names[piece.face_index.front()];
   return result;
 }
@@ -123,12 +121,12 @@ std::vector<Piece> cut_apart(const Part& part, const std::vector<int>& names, Ex
 std::optional<std::pair<Piece, double>> cut_in_hiding(const Part& part, bool is_upright, Execution& execution) {
   std::optional<std::array<double, 3>> up;
   if (is_upright) up.emplace()[static_cast<int>(part.up)] = 1;
-  auto [components, seen] = islands::cut_in_hiding(*part.surface, up, execution);
+  auto [components, seen] = flat::cut_in_hiding(*part.surface, up, execution);
   if (components.size() != 1) return {};
   return std::pair(std::move(pieces_of(part, std::move(components), execution).front()), seen);
 }
 
-std::vector<Piece> smooth_pieces(const Part& part, const islands::Islands* flat, const std::vector<int>& names,
+std::vector<Piece> smooth_pieces(const Part& part, const flat::Islands* flat, const std::vector<int>& names,
                                  Execution& execution) {
   std::vector<mesh::Pair> seams;
   if (flat) seams = sorted_pairs(flat->seams);
@@ -137,7 +135,7 @@ std::vector<Piece> smooth_pieces(const Part& part, const islands::Islands* flat,
   std::vector<Piece> found;
   double tubes = 0;
   for (Piece& piece : parts) {
-    if (piece.name == islands::kRest || !may_be_smooth(*piece.part, flat != nullptr)) continue;
+    if (piece.name == flat::kRest || !may_be_smooth(*piece.part, flat != nullptr)) continue;
     if (flat && !is_minded(piece, *flat, seams, kMostSoft * std::sqrt(part.area), execution)) continue;
     tubes += piece.part->area;
     found.push_back(std::move(piece));
@@ -147,7 +145,7 @@ std::vector<Piece> smooth_pieces(const Part& part, const islands::Islands* flat,
 
 PartPointer closed(const PartPointer& part, Execution& execution) {
   if (part->type.boundary_count <= kEnds) return part;
-  auto surface = std::make_shared<const mesh::Surface>(islands::without_windows(*part->surface, execution));
+  auto surface = std::make_shared<const mesh::Surface>(flat::without_windows(*part->surface, execution));
   return part_of(std::move(surface), part->up, part->labels, execution);
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "choice/map.h"
-#include "islands/pieces.h"
+#include "flat/pieces.h"
 
 namespace holomorph::choice {
 
@@ -16,7 +16,7 @@ namespace holomorph::choice {
 struct Piece {
   PartPointer part;  ///< its own
   std::vector<int> vertex_index, face_index, corner_index;
-  int name = 0;                   ///< of its polygons, as islands::names_of_pieces
+  int name = 0;                   ///< of its polygons, as flat::names_of_pieces
   std::optional<uv::UvArray> uv;  ///< #C x 2 of its islands; none without any
   double cost = 0;                ///< of these, see uv/appearance.h; infinite without any
 
@@ -34,7 +34,7 @@ std::optional<std::pair<Piece, double>> cut_in_hiding(const Part& part, bool is_
 
 /// The pieces with `names` that are tubes, or smooth, and across which islands have a seam or stretch, the largest
 /// first. @param flat the islands of the part; null without any
-std::vector<Piece> smooth_pieces(const Part& part, const islands::Islands* flat, const std::vector<int>& names,
+std::vector<Piece> smooth_pieces(const Part& part, const flat::Islands* flat, const std::vector<int>& names,
                                  Execution& execution);
 
 /// The part with one more polygon, at the end, in each boundary loop but the two longest; itself where there are no

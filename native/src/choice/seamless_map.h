@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "choice/part.h"
+#include "tiling/cones/turned_tiling.h"
 #include "tiling/tiling.h"
-#include "turns/turned_tiling.h"
 #include "uv/zeros.h"
 
 namespace holomorph::choice {
@@ -35,7 +35,7 @@ struct SeamlessMap {
   std::vector<int> cones;
   std::vector<double> cone_angles;                 ///< in full turns
   std::vector<std::array<std::int64_t, 3>> jumps;  ///< at each seam: turns, and the translation
-  turns::Rows rows = turns::Rows::kNone;
+  tiling::Rows rows = tiling::Rows::kNone;
 };
 using SeamlessPointer = std::shared_ptr<const SeamlessMap>;
 

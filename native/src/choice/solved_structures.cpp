@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/held.h"
-#include "plane/disk_map.h"
+#include "flat/disk_map.h"
 
 namespace holomorph::choice {
 namespace {
@@ -92,14 +92,14 @@ uv::UvArray Forms::uv(const Eigen::VectorXcd& coefficients, Execution& execution
       result = structure::uv_map(value, forms, coefficients, execution);
     } else {
       const uv::UvArray function = forms.function(value.differentials.col(0), execution);
-      result = at_corners(*part()->surface, plane::disk_map(value, function, execution.workers()));
+      result = at_corners(*part()->surface, flat::disk_map(value, function, execution.workers()));
     }
   });
   return result;
 }
 
-evening::Kept Forms::kept(const Eigen::VectorXcd& coefficients, Execution&) {
-  evening::Kept result;
+uv::Kept Forms::kept(const Eigen::VectorXcd& coefficients, Execution&) {
+  uv::Kept result;
   switch (kind()) {
     case MapKind::kDisk: {
       result.u = rim(*part()->surface);
@@ -123,7 +123,7 @@ evening::Kept Forms::kept(const Eigen::VectorXcd& coefficients, Execution&) {
   return result;
 }
 
-PlaneStructure::PlaneStructure(MapKind kind, PartPointer part, std::shared_ptr<const plane::PlaneMap> map,
+PlaneStructure::PlaneStructure(MapKind kind, PartPointer part, std::shared_ptr<const flat::PlaneMap> map,
                                double modulus)
     : AnyStructure(kind, part, part->surface), map_(std::move(map)), modulus_(modulus > 0 ? modulus : map_->modulus) {}
 
@@ -133,8 +133,8 @@ uv::UvArray PlaneStructure::uv(const Eigen::VectorXcd&, Execution&) {
   return result;
 }
 
-evening::Kept PlaneStructure::kept(const Eigen::VectorXcd&, Execution&) {
-  evening::Kept result;
+uv::Kept PlaneStructure::kept(const Eigen::VectorXcd&, Execution&) {
+  uv::Kept result;
   if (kind() == MapKind::kFlat) return result;
   const std::vector<int> ends = rim(*part()->surface);
   result.u = result.v = ends;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "choice/any_structure.h"
-#include "plane/dirichlet_problem.h"
+#include "flat/dirichlet_problem.h"
 #include "structure/solved.h"
 
 namespace holomorph::choice {
@@ -25,7 +25,7 @@ class Forms final : public AnyStructure {
   void prepare_uv(Execution& execution) override;
   Eigen::VectorXcd balanced_coefficients(Execution& execution) override;
   uv::UvArray uv(const Eigen::VectorXcd& coefficients, Execution& execution) override;
-  evening::Kept kept(const Eigen::VectorXcd& coefficients, Execution& execution) override;
+  uv::Kept kept(const Eigen::VectorXcd& coefficients, Execution& execution) override;
 
  private:
   std::shared_ptr<structure::Solved> solved_;
@@ -37,9 +37,9 @@ class Forms final : public AnyStructure {
 class PlaneStructure final : public AnyStructure {
  public:
   /// @param modulus height over width of a rectangle, where its bounds were narrowed; 0: the map's own
-  PlaneStructure(MapKind kind, PartPointer part, std::shared_ptr<const plane::PlaneMap> map, double modulus = 0);
+  PlaneStructure(MapKind kind, PartPointer part, std::shared_ptr<const flat::PlaneMap> map, double modulus = 0);
 
-  const std::shared_ptr<const plane::PlaneMap>& map() const { return map_; }
+  const std::shared_ptr<const flat::PlaneMap>& map() const { return map_; }
   int form_count() const override { return 0; }
   bool is_real() const override { return false; }
   std::vector<int> seams(Execution&) override { return {}; }
@@ -47,10 +47,10 @@ class PlaneStructure final : public AnyStructure {
   void prepare_uv(Execution&) override {}
   Eigen::VectorXcd balanced_coefficients(Execution&) override { return {}; }
   uv::UvArray uv(const Eigen::VectorXcd& coefficients, Execution& execution) override;
-  evening::Kept kept(const Eigen::VectorXcd& coefficients, Execution& execution) override;
+  uv::Kept kept(const Eigen::VectorXcd& coefficients, Execution& execution) override;
 
  private:
-  std::shared_ptr<const plane::PlaneMap> map_;
+  std::shared_ptr<const flat::PlaneMap> map_;
   double modulus_;
 };
 

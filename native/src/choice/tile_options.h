@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mesh/surface.h"
+#include "tiling/cones/turned_tiling.h"
 #include "tiling/rounding_candidate.h"
-#include "turns/turned_tiling.h"
 
 namespace holomorph::choice {
 
@@ -36,7 +36,7 @@ struct PoleChoice {
 /// Boundary loops along lines of constant v; free for a more even density; or as suits the mesh.
 enum class BoundaryLines { kAutomatic, kStraight, kFree };
 
-/// What is asked of a tiling (tiling/tiling.h, turns/turned_tiling.h).
+/// What is asked of a tiling (tiling/tiling.h, tiling/cones/turned_tiling.h).
 struct TileOptions {
   double tiles = 0;  ///< 0: a number that suits it
   double evenness = 0;
@@ -51,7 +51,7 @@ struct TileOptions {
   std::vector<tiling::PoleMove> moves;  ///< after the rounding
   // If it turns:
   int turns = 1;
-  turns::Rows rows = turns::Rows::kNone;
+  tiling::Rows rows = tiling::Rows::kNone;
   std::vector<mesh::Pair> marked;           ///< edges that are lines, too
   std::optional<std::vector<int>> missing;  ///< #V k-th turns that are missing around chosen cones
 

@@ -145,10 +145,10 @@ SeamlessPointer Tiler::value(tiling::Tiling tiling, bool is_upright, Execution& 
   return result;
 }
 
-SeamlessPointer turned_tiling(turns::TurnedTiler& tiler, const Part& part, int turns, double tiles, double evenness,
+SeamlessPointer turned_tiling(tiling::TurnedTiler& tiler, const Part& part, int turns, double tiles, double evenness,
                               Execution& execution) {
   if (!(tiles > 0)) tiles = tiler.usual_tiles();
-  turns::TurnedTiling tiling = tiler.tile(tiles, evenness, execution);
+  tiling::TurnedTiling tiling = tiler.tile(tiles, evenness, execution);
   auto result = std::make_shared<SeamlessMap>();
   result->uv = std::move(tiling.map.uv);
   result->quality = std::move(tiling.quality);
@@ -164,7 +164,7 @@ SeamlessPointer turned_tiling(turns::TurnedTiler& tiler, const Part& part, int t
   for (const int missing : tiling.map.missing) {
     result->cone_angles.push_back(1 - static_cast<double>(missing) / turns);
   }
-  for (const turns::Jump& jump : tiling.map.jumps) {
+  for (const tiling::Jump& jump : tiling.map.jumps) {
     result->seams.push_back(part.surface->edges[jump.edge]);
     result->jumps.push_back({jump.turn, jump.translation[0], jump.translation[1]});
   }
@@ -210,13 +210,13 @@ SeamlessPointer Tilers::turned(const TileOptions& options, Execution& execution)
   check_turned(options);
   const Heading& heading = options.heading;
   const TurnedKey key{options.turns, options.rows, heading, options.marked, options.missing};
-  std::shared_ptr<turns::TurnedTiler> tiler = turned_.get(key).value_or(nullptr);
+  std::shared_ptr<tiling::TurnedTiler> tiler = turned_.get(key).value_or(nullptr);
   if (!tiler) {
-    turns::TilerOptions asked{
+    tiling::TilerOptions asked{
         options.turns, {}, part_->up, options.rows, options.marked, options.missing.value_or(std::vector<int>())};
     if (heading.is_upright() && part_->has_positions()) asked.along = {up_vector(part_->up), false};
     if (heading.kind == Heading::Kind::kVector) asked.along = {heading.vector, true};
-    tiler = std::make_shared<turns::TurnedTiler>(part_->surface, asked, execution);
+    tiler = std::make_shared<tiling::TurnedTiler>(part_->surface, asked, execution);
   }
   turned_.keep(key, tiler);
   const TurnedMapKey made_key{tiler, options.tiles, options.evenness};

@@ -42,7 +42,7 @@ class Tiler {
 using TilerPointer = std::shared_ptr<const Tiler>;
 
 /// Makes a tiling that turns. @param tiles 0: a number that suits it
-SeamlessPointer turned_tiling(turns::TurnedTiler& tiler, const Part& part, int turns, double tiles, double evenness,
+SeamlessPointer turned_tiling(tiling::TurnedTiler& tiler, const Part& part, int turns, double tiles, double evenness,
                               Execution& execution);
 
 /// The tilings of one part.
@@ -50,7 +50,7 @@ class Tilers {
  public:
   explicit Tilers(PartPointer part) : part_(std::move(part)) {}
 
-  /// The tiling; the last ones are kept, and evened for another evenness. @throws as Tiler and turns::TurnedTiler;
+  /// The tiling; the last ones are kept, and evened for another evenness. @throws as Tiler and tiling::TurnedTiler;
   /// std::invalid_argument for choices that a tiling that turns has not
   SeamlessPointer tile(const TileOptions& options, Execution& execution);
 
@@ -66,7 +66,7 @@ class Tilers {
   };
   struct TurnedKey {
     int turns;
-    turns::Rows rows;
+    tiling::Rows rows;
     Heading heading;
     std::vector<mesh::Pair> marked;
     std::optional<std::vector<int>> missing;
@@ -74,7 +74,7 @@ class Tilers {
   };
   // What a tiling was made of; its tiler stays as long as it is kept.
   using ShiftedKey = std::pair<TilerPointer, TileOptions>;
-  using TurnedMapKey = std::tuple<std::shared_ptr<turns::TurnedTiler>, double, double>;
+  using TurnedMapKey = std::tuple<std::shared_ptr<tiling::TurnedTiler>, double, double>;
   static constexpr std::size_t kKept = 2;  // more poles are tried where some are too few
 
   SeamlessPointer shifted(const TileOptions& options, Execution& execution);
@@ -83,7 +83,7 @@ class Tilers {
   PartPointer part_;
   Newest<TilerKey, TilerPointer> tilers_{kKept};
   Newest<ShiftedKey, SeamlessPointer> shifted_{kKept};
-  Newest<TurnedKey, std::shared_ptr<turns::TurnedTiler>> turned_{kKept};
+  Newest<TurnedKey, std::shared_ptr<tiling::TurnedTiler>> turned_{kKept};
   Newest<TurnedMapKey, SeamlessPointer> turned_maps_{kKept};
 };
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "choice/arrangement.h"
+#include "flat/arrangement.h"
 #include "uv/appearance.h"
 
 namespace holomorph::choice {
@@ -101,7 +101,7 @@ SeamlessPointer stretched_tiling(const SeamlessMap& tiling, double factor, uv::U
   // Both sides of a cut are as far across the line, exactly, and are shifted by the same.
   const Eigen::Vector2d across(-line.imag(), line.real());
   uv::UvArray shift = ((factor - 1) / std::norm(line)) * (tiling.uv * across) * across.transpose();
-  round_to_grid(shift);
+  flat::round_to_grid(shift);
   auto result = std::make_shared<SeamlessMap>(tiling);
   result->uv += shift;
   result->tiles *= factor;
@@ -176,7 +176,7 @@ MapPointer TilingSearch::turned(double density, Execution& execution) {
 // One that turns where that is asked for; one that is only shifted where that is impossible, or where the other is poor
 // or loses triangles and it costs less: its jumps are symmetries of the texture, too.
 MapPointer TilingSearch::of_tiles(Size size, Execution& execution) {
-  using turns::Rows;
+  using tiling::Rows;
   const int turns = request_.tiling.turns;
   if (turns == 1) return shifted(size, execution);
   if (request_.tiling.missing) return with(request_.tiling.poles, size, turns, Rows::kNone, execution);
@@ -206,7 +206,7 @@ MapPointer TilingSearch::lined(const MapPointer& turned, const Size& size, Execu
   length /= std::sqrt(part_->area);
   if (length < 1 || !budget_.goes_on()) return nullptr;
   const double most = turned->cost() + std::min(kLined * length, kMostLined);
-  for (const turns::Rows rows : {turns::Rows::kWhole, turns::Rows::kFree}) {
+  for (const tiling::Rows rows : {tiling::Rows::kWhole, tiling::Rows::kFree}) {
     const MapPointer made = with_turns(size, rows, execution);
     if (made && made->quality().lost_part == 0 && made->cost() < most) return made;
   }
@@ -216,16 +216,16 @@ MapPointer TilingSearch::lined(const MapPointer& turned, const Size& size, Execu
 // The marked edges that may be lines: all where lines are asked for.
 std::vector<mesh::Pair> TilingSearch::marked() const {
   const std::vector<mesh::Pair>& all = request_.tiling.marked;
-  const bool are_asked = request_.rows == turns::Rows::kWhole || request_.rows == turns::Rows::kFree;
-  return are_asked || (!all.empty() && turns::are_whole(all)) ? all : std::vector<mesh::Pair>();
+  const bool are_asked = request_.rows == tiling::Rows::kWhole || request_.rows == tiling::Rows::kFree;
+  return are_asked || (!all.empty() && tiling::are_whole(all)) ? all : std::vector<mesh::Pair>();
 }
 
 const std::vector<int>& TilingSearch::edges_of_lines() {
-  if (!edges_of_lines_) edges_of_lines_ = turns::found_lines(*part_->surface, marked());
+  if (!edges_of_lines_) edges_of_lines_ = tiling::found_lines(*part_->surface, marked());
   return *edges_of_lines_;
 }
 
-MapPointer TilingSearch::with_turns(const Size& size, turns::Rows rows, Execution& execution) {
+MapPointer TilingSearch::with_turns(const Size& size, tiling::Rows rows, Execution& execution) {
   return unless_refused([&] { return with(request_.tiling.poles, size, request_.tiling.turns, rows, execution); },
                         [](const Error&) { return MapPointer(); });
 }
@@ -237,7 +237,7 @@ MapPointer TilingSearch::regular(const Size& size, Execution& execution) {
   if (!is_best || guess_without_poles(execution) > kRegular) return nullptr;
   const MapPointer made = unless_refused(
       [&] {
-        return with({0, {}, poles.allowed}, size, 1, turns::Rows::kNone, execution);
+        return with({0, {}, poles.allowed}, size, 1, tiling::Rows::kNone, execution);
       },
       [](const Error&) { return MapPointer(); });
   return made && made->quality().lost_part == 0 && but_direction(*made) <= kRegular ? made : nullptr;
@@ -249,9 +249,9 @@ MapPointer TilingSearch::regular(const Size& size, Execution& execution) {
 MapPointer TilingSearch::shifted(const Size& size, Execution& execution) {
   const PoleChoice& poles = request_.tiling.poles;
   const auto with_count = [&](int count) {
-    return with({count, {}, poles.allowed}, size, 1, turns::Rows::kNone, execution);
+    return with({count, {}, poles.allowed}, size, 1, tiling::Rows::kNone, execution);
   };
-  const auto as_asked = [&] { return with(poles, size, 1, turns::Rows::kNone, execution); };
+  const auto as_asked = [&] { return with(poles, size, 1, tiling::Rows::kNone, execution); };
   if (!poles.is_open()) return as_asked();
   const bool may_have_none = has_tilings_without_poles();
   const MapPointer first =
@@ -278,7 +278,7 @@ MapPointer TilingSearch::with_more_poles(const Map& first, const MapPointer& bes
 }
 
 // @throws what tilings throw; TopologyError where too much is lost
-MapPointer TilingSearch::with(const PoleChoice& poles, const Size& size, int turns, turns::Rows rows,
+MapPointer TilingSearch::with(const PoleChoice& poles, const Size& size, int turns, tiling::Rows rows,
                               Execution& execution) {
   TileOptions options = request_.tiling;
   options.poles = poles;
@@ -290,8 +290,8 @@ MapPointer TilingSearch::with(const PoleChoice& poles, const Size& size, int tur
   if (size.is_of_turns) options.lattice = request_.tiling.turns == 6 ? kHex : kSquare;
   options.turns = turns;
   options.rows = rows;
-  options.marked = rows == turns::Rows::kNone ? std::vector<mesh::Pair>() : marked();
-  if (turns == 1 || rows != turns::Rows::kNone) options.missing.reset();
+  options.marked = rows == tiling::Rows::kNone ? std::vector<mesh::Pair>() : marked();
+  if (turns == 1 || rows != tiling::Rows::kNone) options.missing.reset();
   SeamlessPointer made = structure_->tilers().tile(options, execution);
   if (const double lost = made->quality.lost_part; !(lost < kMostLost))
     throw TopologyError("it would lose " + percent(lost) + " of its area, as the mesh is too coarse: subdivide it");

@@ -47,10 +47,10 @@ class TilingSearch {
 
   MapPointer of_tiles(Size size, Execution& execution);
   MapPointer lined(const MapPointer& turned, const Size& size, Execution& execution);
-  MapPointer with_turns(const Size& size, turns::Rows rows, Execution& execution);
+  MapPointer with_turns(const Size& size, tiling::Rows rows, Execution& execution);
   MapPointer regular(const Size& size, Execution& execution);
   MapPointer shifted(const Size& size, Execution& execution);
-  MapPointer with(const PoleChoice& poles, const Size& size, int turns, turns::Rows rows, Execution& execution);
+  MapPointer with(const PoleChoice& poles, const Size& size, int turns, tiling::Rows rows, Execution& execution);
   template <class WithCount>
   MapPointer with_more_poles(const Map& first, const MapPointer& best, const WithCount& with_count);
   SeamlessPointer under_texture(SeamlessPointer made) const;

@@ -149,8 +149,8 @@ std::vector<int> Truncated::seams(Execution& execution) {
   return result;
 }
 
-evening::Kept Truncated::kept(const Eigen::VectorXcd&, Execution&) {
-  evening::Kept result;
+uv::Kept Truncated::kept(const Eigen::VectorXcd&, Execution&) {
+  uv::Kept result;
   result.poles = poles();
   return result;
 }

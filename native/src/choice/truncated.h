@@ -40,7 +40,7 @@ class Truncated final : public AnyStructure {
   void prepare_uv(Execution& execution) override { refined_->prepare_uv(execution); }
   Eigen::VectorXcd balanced_coefficients(Execution& execution) override;
   uv::UvArray uv(const Eigen::VectorXcd& coefficients, Execution& execution) override;
-  evening::Kept kept(const Eigen::VectorXcd& coefficients, Execution& execution) override;
+  uv::Kept kept(const Eigen::VectorXcd& coefficients, Execution& execution) override;
 
  private:
   Truncation truncation_;

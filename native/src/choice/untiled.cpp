@@ -12,7 +12,7 @@
 namespace holomorph::choice {
 namespace {
 
-using SharedIslands = std::shared_ptr<const islands::Islands>;
+using SharedIslands = std::shared_ptr<const flat::Islands>;
 
 // The work on a tiling, in millionths of about a second, for each triangle of the level on which poles are placed, and
 // of the part; how much of it is spent on islands where there is a tiling, and what is spent on them in any case.
@@ -27,7 +27,7 @@ SharedIslands found_or_none(const Ask& ask) {
 }
 
 // How it is flattened, in one sentence.
-std::string how(const islands::Islands& flat) {
+std::string how(const flat::Islands& flat) {
   std::ostringstream text;
   text.precision(3);
   text << "it flattens ";
@@ -50,8 +50,8 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) 
 Untiled::Untiled(PartPointer part, StructurePointer structure, double evenness, bool is_upright, Execution& execution)
     : part_(std::move(part)), structure_(std::move(structure)), evenness_(evenness), is_upright_(is_upright) {
   if (!part_->has_positions() || !(part_->area > 0)) return;
-  const islands::IslandOptions options{evenness, part_->up, is_upright};
-  search_ = std::make_unique<islands::IslandSearch>(*part_->surface, options, execution);
+  const flat::IslandOptions options{evenness, part_->up, is_upright};
+  search_ = std::make_unique<flat::IslandSearch>(*part_->surface, options, execution);
 }
 
 MapPointer Untiled::at_once(Execution& execution) {
@@ -80,7 +80,7 @@ MapPointer Untiled::balanced(double most, const std::string& why, Execution& exe
   if (!conformal_) conformal_ = choice::form_map(part_, structure_, {}, 0, is_upright_, "it was asked for", execution);
   double least = conformal_->cost();
   if (evenness_ > 0 && std::isfinite(least))
-    least -= (1 - islands::kEvenedCost) * uv::cost_of_squares(conformal_->quality());
+    least -= (1 - flat::kEvenedCost) * uv::cost_of_squares(conformal_->quality());
   if (!(least < most)) return nullptr;
   const MapPointer made = form_map(why, execution);
   return made->cost() < most ? made : nullptr;
@@ -94,7 +94,7 @@ MapPointer Untiled::best(const std::string& why, Execution& execution) {
 
 MapPointer Untiled::one_island(const SeamlessMap& tiling, const std::string& why, Execution& execution) const {
   if (!part_->has_positions()) return nullptr;
-  auto flat = std::make_shared<islands::Islands>();
+  auto flat = std::make_shared<flat::Islands>();
   const double density = tiling.quality.median_density;
   flat->uv = tiling.uv / std::sqrt(density);
   flat->seams = tiling.seams;
@@ -122,7 +122,7 @@ bool Untiled::may_flatten() {
   if (!may_flatten_) {
     std::vector<char> is_hard;
     for (const double bend : mesh::breaks(*part_->surface))
-      is_hard.push_back(bend > mesh::radians(islands::kHardAngles.back()));
+      is_hard.push_back(bend > mesh::radians(flat::kHardAngles.back()));
     may_flatten_ = mesh::curvature(*part_->surface, is_hard, mesh::kTip) <= kMostCurved;
   }
   return *may_flatten_;

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "choice/map.h"
-#include "islands/island_search.h"
+#include "flat/island_search.h"
 
 namespace holomorph::choice {
 
@@ -30,10 +30,10 @@ class Untiled {
   Untiled(PartPointer part, StructurePointer structure, double evenness, bool is_upright, Execution& execution);
 
   /// The best islands so far, if they were looked for.
-  std::shared_ptr<const islands::Islands> known() const { return search_ ? search_->known() : nullptr; }
+  std::shared_ptr<const flat::Islands> known() const { return search_ ? search_->known() : nullptr; }
   /// The islands that cost so little that hardly another map costs less, if there are any, or better ones.
   MapPointer at_once(Execution& execution);
-  /// The islands of least cost, if it is below `most`, and they are found by so much work (islands/island_search.h).
+  /// The islands of least cost, if it is below `most`, and they are found by so much work (flat/island_search.h).
   /// @param work none: a part of that on a tiling
   MapPointer islands(double most, std::optional<double> work, Execution& execution);
   /// The islands, however long they take, where no other map is tried.
@@ -46,7 +46,7 @@ class Untiled {
   MapPointer one_island(const SeamlessMap& tiling, const std::string& why, Execution& execution) const;
 
  private:
-  MapPointer map(std::shared_ptr<const islands::Islands> flat, std::string why, Execution& execution) const;
+  MapPointer map(std::shared_ptr<const flat::Islands> flat, std::string why, Execution& execution) const;
   MapPointer form_map(const std::string& why, Execution& execution) const;
   bool may_flatten();
   double work() const;
@@ -55,7 +55,7 @@ class Untiled {
   StructurePointer structure_;
   double evenness_;
   bool is_upright_;
-  std::unique_ptr<islands::IslandSearch> search_;
+  std::unique_ptr<flat::IslandSearch> search_;
   MapPointer conformal_;
   std::optional<bool> may_flatten_;
 };

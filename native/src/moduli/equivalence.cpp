@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "base/held.h"
-#include "lattice/reduction.h"
 #include "linear/dense.h"
+#include "linear/reduction.h"
 
 namespace holomorph::moduli {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using lattice::IntegerVector;
+using linear::IntegerVector;
 
 // Relative error of energies that small dense products may add, and the bounds need not exclude.
 constexpr double kRounding = 1e-9;
@@ -61,8 +61,8 @@ class Search {
   // length by factors of thousands the list would not end, and each row has a search of its own.
   void list_short_vectors() {
     const double longest = b_.lattice.upper.diagonal().maxCoeff() * (1 + kRounding);
-    const auto found = lattice::near_points(lattice::reduce(root_, lattice::kDelta, tick_), VectorXd::Zero(size()),
-                                            longest, options_.steps / kListPart, tick_);
+    const auto found = linear::near_points(linear::reduce(root_, linear::kDelta, tick_), VectorXd::Zero(size()),
+                                           longest, options_.steps / kListPart, tick_);
     steps_left_ -= found.steps;
     if (!found.is_complete || found.integers.size() > kMostListed) return;
     short_.resize(static_cast<Index>(found.integers.size()), size());
@@ -130,7 +130,7 @@ class Search {
       target[n + 2 * j + 1] = exact * options_.sign * static_cast<double>(b_.lattice.pairing(j, k));
     }
     auto near =
-        lattice::near_points(lattice::reduce(conditions, lattice::kDelta, tick_), target, bound, steps_left_, tick_);
+        linear::near_points(linear::reduce(conditions, linear::kDelta, tick_), target, bound, steps_left_, tick_);
     steps_left_ -= near.steps + kReduction * n * n;
     result_.is_complete &= near.is_complete;
     return std::move(near.integers);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/errors.h"
-#include "conformal/certain_bounds.h"
+#include "forms/certain_bounds.h"
 #include "linear/dense.h"
 
 namespace holomorph::moduli {
@@ -33,7 +33,7 @@ IntegerMatrix unimodular_inverse(const IntegerMatrix& A) {
 
 MatrixXd in_basis(const IntegerMatrix& basis, const MatrixXd& form) {
   const MatrixXd T = basis.cast<double>();
-  return conformal::symmetric(T * form * T.transpose());
+  return forms::symmetric(T * form * T.transpose());
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ IntegerMatrix checked_product(const IntegerMatrix& A, const IntegerMatrix& B) {
 IntegerMatrix short_basis(const MatrixXd& form, const std::function<void()>& tick) {
   // U^T U is the form, so that the columns of U span a lattice with these lengths and angles.
   const MatrixXd root = linear::Cholesky(form).upper();
-  const auto reduced = lattice::reduce(root, lattice::kDelta, tick);
+  const auto reduced = linear::reduce(root, linear::kDelta, tick);
   const Eigen::VectorXd length = reduced.basis.colwise().norm();
   std::vector<Index> order(length.size());
   std::iota(order.begin(), order.end(), 0);
@@ -67,7 +67,7 @@ IntegerMatrix short_basis(const MatrixXd& form, const std::function<void()>& tic
 }
 
 PeriodLattice closed_lattice(const MatrixXd& G, const topology::IntegerMatrix& W) {
-  const auto star = conformal::projected_star(G, G, W.cast<double>());
+  const auto star = forms::projected_star(G, G, W.cast<double>());
   return {star.lower, G, star.natural_gram, W};
 }
 
@@ -76,8 +76,8 @@ PeriodLattice bounded_lattice(const MatrixXd& G_N, const MatrixXd& G_D, const to
   const MatrixXd real = W.cast<double>();
   IntegerMatrix pairing = IntegerMatrix::Zero(W.rows(), W.cols());
   pairing.topLeftCorner(handles, handles) = W.topLeftCorner(handles, handles);
-  const MatrixXd lower = conformal::symmetric(real.transpose() * conformal::inverse(G_N) * real);
-  return {lower, G_D, conformal::projected_star(G_N, G_D, real).dirichlet_gram, pairing};
+  const MatrixXd lower = forms::symmetric(real.transpose() * forms::inverse(G_N) * real);
+  return {lower, G_D, forms::projected_star(G_N, G_D, real).dirichlet_gram, pairing};
 }
 
 ReducedLattice reduced(const PeriodLattice& given, const std::function<void()>& tick) {

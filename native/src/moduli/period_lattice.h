@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "lattice/reduction.h"
+#include "linear/reduction.h"
 #include "topology/homology.h"
 
 namespace holomorph::moduli {
@@ -19,7 +19,7 @@ struct LogRatios {
 /// @throws SolverError where B is not positive definite
 LogRatios log_ratios(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
-using lattice::IntegerMatrix;
+using linear::IntegerMatrix;
 
 /// The lattice Z^n of integer classes, its quadratic form the energy of their harmonic forms, which is known between
 /// two bounds, and an antisymmetric integer pairing. Two closed surfaces of genus >= 1 are conformally equivalent if

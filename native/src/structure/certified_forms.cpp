@@ -85,10 +85,9 @@ void require_ordered(const MatrixXd& lower, const MatrixXd& upper, double allowe
 
 Invariants invariants(const Topology& topology, CertainGram energies, Execution& execution) {
   const auto& [gram, certain] = energies;
-  auto holomorphic =
-      topology.families.dirichlet > 0
-          ? conformal::bounded_basis(gram, certain, topology.pairing, topology.type.genus, execution)
-          : conformal::closed_basis(gram[0], certain[0], topology.pairing, topology.canonical, execution);
+  auto holomorphic = topology.families.dirichlet > 0
+                         ? forms::bounded_basis(gram, certain, topology.pairing, topology.type.genus, execution)
+                         : forms::closed_basis(gram[0], certain[0], topology.pairing, topology.canonical, execution);
   return {std::move(energies), std::move(holomorphic)};
 }
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "conformal/holomorphic_basis.h"
 #include "forms/certificates.h"
 #include "forms/closed_forms.h"
 #include "forms/gram_matrices.h"
+#include "forms/holomorphic_basis.h"
 #include "mesh/delaunay.h"
 #include "structure/topology.h"
 #include "uv/balance.h"
@@ -59,8 +59,8 @@ void require_ordered(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& upper,
 [[noreturn]] void refuse(const std::string& what, double size, double allowed);
 
 struct Invariants {
-  CertainGram energies;                     ///< energies of the natural and, with boundary, the Dirichlet forms
-  conformal::HolomorphicBasis holomorphic;  ///< star, holomorphic basis and period matrix (Eq. 13) with its bounds
+  CertainGram energies;                 ///< energies of the natural and, with boundary, the Dirichlet forms
+  forms::HolomorphicBasis holomorphic;  ///< star, holomorphic basis and period matrix (Eq. 13) with its bounds
 };
 
 /// @throws SolverError, Cancelled

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "elements/element_forms.h"
+#include "forms/element_forms.h"
 #include "mesh/components.h"
 #include "mesh/delaunay.h"
 #include "structure/structure.h"
@@ -126,7 +126,7 @@ NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, 
   const auto classes = classes_on_delaunay(surface, sides, triangulation.flips);
   write_triangulation(triangulation.half_edges, classes, level);
 
-  const elements::ElementForms forms(triangulation.half_edges, face_weights(triangulation), classes, natural, order);
+  const forms::ElementForms forms(triangulation.half_edges, face_weights(triangulation), classes, natural, order);
   execution.stage("refined forms", 0.2, 0.8);
   level.functions = forms.solve(execution);
   execution.stage("refined bounds", 0.8, 1.0);
@@ -142,7 +142,7 @@ CertainGram measure_level(const mesh::Surface& surface, const SideClasses& sides
                           const forms::RowMajorMatrix& functions, Execution& execution) {
   const auto triangulation = delaunay(surface, execution);
   const auto classes = classes_on_delaunay(surface, sides, triangulation.flips);
-  const elements::ElementForms forms(triangulation.half_edges, face_weights(triangulation), classes, natural, order);
+  const forms::ElementForms forms(triangulation.half_edges, face_weights(triangulation), classes, natural, order);
   return certain_energies(forms.gram_matrices(functions, execution));
 }
 

@@ -25,9 +25,9 @@ struct NestedLevel {
   std::vector<double> lengths;               ///< #E
   std::vector<double> errors;                ///< #T mesh::FaceError::largest; 1 where the metric is another one
   SideClasses classes;                       ///< on that triangulation
-  forms::RowMajorMatrix functions;           ///< see elements::ElementForms::solve
+  forms::RowMajorMatrix functions;           ///< see forms::ElementForms::solve
   CertainGram energies;
-  std::vector<double> gaps;  ///< #T, see elements::ElementForms::gaps
+  std::vector<double> gaps;  ///< #T, see forms::ElementForms::gaps
   double mollification = 0;  ///< other than 0: bounds would belong to another surface, and nothing is solved
 };
 
@@ -46,7 +46,7 @@ std::vector<double> length_errors(const mesh::Surface& surface);
 CertainGram measure(const mesh::Surface& surface, const SideClasses& classes, int natural,
                     const forms::RowMajorMatrix& functions, Execution& execution);
 
-/// The same by elements of order p. @param functions see elements::ElementForms::solve
+/// The same by elements of order p. @param functions see forms::ElementForms::solve
 CertainGram measure_level(const mesh::Surface& surface, const SideClasses& classes, int natural, int order,
                           const forms::RowMajorMatrix& functions, Execution& execution);
 

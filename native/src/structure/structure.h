@@ -58,7 +58,7 @@ struct Structure {
   std::span<const mesh::Star> stars() const {
     return poles ? std::span<const mesh::Star>(poles->stars) : std::span<const mesh::Star>();
   }
-  const conformal::HolomorphicBasis& holomorphic() const { return harmonic.invariants.holomorphic; }
+  const forms::HolomorphicBasis& holomorphic() const { return harmonic.invariants.holomorphic; }
 };
 
 /// Writes the UVs, #C x 2, of the real and imaginary part of sum_k p_k h_k, from its function sum_k p_k f_k, #V x 2.

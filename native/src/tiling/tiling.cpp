@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "evening/evening.h"
 #include "tiling/rounding/rounding_problem.h"
 #include "uv/balance.h"
+#include "uv/evening.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -102,11 +102,11 @@ Tiling with_evenness(std::shared_ptr<const ConformalTiling> conformal, double ev
   uv::UvArray function = conformal->function;
   if (evenness > 0) {
     execution.stage("evening", begin, 0.9);
-    evening::Kept kept{conformal->poles, {}, {}, {}, {}};
+    uv::Kept kept{conformal->poles, {}, {}, {}, {}};
     if (conformal->straight) kept.v = boundary_vertices(surface);
     // Evening adds a function on the vertices, so that jumps and straight boundaries stay.
     uv::UvArray uv = seamless_uv(*conformal->structure, conformal->seamless, function, execution);
-    function += evening::evened(surface, std::move(uv), kept, evenness, execution);
+    function += uv::evened(surface, std::move(uv), kept, evenness, execution);
   }
   execution.stage("UV map", 0.9, 1.0);
   Tiling result{conformal, evenness, {}};

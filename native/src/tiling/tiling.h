@@ -17,7 +17,7 @@ struct TilingOptions {
   std::optional<std::array<double, 3>> direction;  ///< in space, along which u runs as far as it can
   std::optional<double> turn;                      ///< further rotation of the texture, in radians
   double max_turn = 0.2;                           ///< largest rotation that rounding may add to them, in radians
-  double evenness = 0;                             ///< from 0, conformal, to 1 (evening/evening.h)
+  double evenness = 0;                             ///< from 0, conformal, to 1 (uv/evening.h)
   bool size_counts = false;                        ///< the wanted size is more important than a little shear
 };
 

@@ -9,10 +9,10 @@
 
 #include "base/errors.h"
 #include "base/held.h"
-#include "evening/evening.h"
 #include "tiling/poles/pole_objective.h"
 #include "tiling/poles/search_steps.h"
 #include "uv/balance.h"
+#include "uv/evening.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -231,7 +231,7 @@ int thinning(const GreensFunctions& greens, int count) {
 }
 
 // The spread of the density that evening is expected to leave.
-double evened(double spread) { return std::pow(spread, evening::kUsualPower); }
+double evened(double spread) { return std::pow(spread, uv::kUsualPower); }
 
 MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
   form = search.settled(std::move(form));
@@ -243,7 +243,7 @@ MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
 MeromorphicForm enough_for_evening(GreensFunctions& greens, const PlaceOptions& options, Execution& execution) {
   PoleSearch few(greens, options, thinning(greens, kFew), execution), more(greens, options, kEvery, execution);
   // The spread of the conformal map that evening takes to kEvened.
-  const double enough = std::pow(kEvened, 1 / evening::kUsualPower);
+  const double enough = std::pow(kEvened, 1 / uv::kUsualPower);
   MeromorphicForm added = few.begin(), best = added;
   double least = evened(few.spread_of(best));
   for (const int count : kCountsEvened) {

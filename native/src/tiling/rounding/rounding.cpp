@@ -6,7 +6,7 @@
 #include <set>
 
 #include "base/task_progress.h"
-#include "lattice/blocks.h"
+#include "linear/blocks.h"
 #include "tiling/poles/meromorphic_form.h"
 
 namespace holomorph::tiling {
@@ -45,8 +45,7 @@ double excess(const ArrayXd& lengths) {
 std::vector<Rounding> best_of(const RoundingProblem& p, const std::set<std::vector<std::int64_t>>& integers,
                               std::vector<Rounding> list, Execution& execution, TaskProgress& watch) {
   const std::size_t known = list.size();
-  for (const auto& z : integers)
-    list.push_back({Eigen::Map<const lattice::IntegerVector>(z.data(), std::ssize(z)), {}});
+  for (const auto& z : integers) list.push_back({Eigen::Map<const linear::IntegerVector>(z.data(), std::ssize(z)), {}});
   run_throwing(execution.workers(), static_cast<int>(integers.size()), [&](int thread, int i) {
     watch(thread);
     Rounding& rounding = list[known + i];
@@ -64,13 +63,13 @@ std::vector<Rounding> best_of(const RoundingProblem& p, const std::set<std::vect
 // further than is allowed, or than the roundings of the list do. Nearest planes leave gaps of sizes, which short
 // vectors fill.
 std::set<std::vector<std::int64_t>> a_step_away(const RoundingProblem& p, const RoundingOptions& options,
-                                                const std::vector<Rounding>& list, const lattice::IntegerMatrix& steps,
+                                                const std::vector<Rounding>& list, const linear::IntegerMatrix& steps,
                                                 const std::set<std::vector<std::int64_t>>& known) {
   const VectorXcd weights = mean_weights(p.target_density);
   // The weighted product of the target with the form of z: its argument is the angle by which z turns the texture.
   const Eigen::RowVectorXcd along = ((p.forms * p.target).adjoint() * weights.asDiagonal() * p.forms) * p.Z;
   const Complex back = std::polar(1.0, -options.phase.value_or(0));
-  const auto turn = [&](const lattice::IntegerVector& z) {
+  const auto turn = [&](const linear::IntegerVector& z) {
     return std::abs(std::arg(back * (along * z.cast<double>().cast<Complex>()).value()));
   };
   double most = std::numbers::pi;
@@ -82,7 +81,7 @@ std::set<std::vector<std::int64_t>> a_step_away(const RoundingProblem& p, const 
   for (const Rounding& rounding : list) {
     for (Index j = 0; j < steps.cols(); ++j) {
       for (const int sign : {1, -1}) {
-        const lattice::IntegerVector z = rounding.z + sign * steps.col(j);
+        const linear::IntegerVector z = rounding.z + sign * steps.col(j);
         if (turn(z) > most) continue;
         if (std::vector<std::int64_t> own(z.begin(), z.end()); !known.contains(own)) found.insert(std::move(own));
       }
@@ -140,10 +139,10 @@ RoundingSearch::Weighted RoundingSearch::weighted(const MatrixXcd& rows) {
   Weighted result{rows, MatrixXd(B.rows(), 2), {}};
   TaskProgress watch(execution_, kUsualSteps, static_cast<double>(B.cols()));
   if (is_whole()) {
-    result.reduced = lattice::reduce(B, lattice::kDelta, [&] { watch(0); });
+    result.reduced = linear::reduce(B, linear::kDelta, [&] { watch(0); });
   } else {
     result.points << as_real(rows * target), as_real(rows * (Complex(0, 1) * target));
-    result.reduced = lattice::reduce_by_blocks(B, result.points, execution_);
+    result.reduced = linear::reduce_by_blocks(B, result.points, execution_);
   }
   record_.blocks = result.reduced.blocks;
   record_.steps += result.reduced.steps;
@@ -151,11 +150,11 @@ RoundingSearch::Weighted RoundingSearch::weighted(const MatrixXcd& rows) {
   return result;
 }
 
-lattice::IntegerVector RoundingSearch::nearest(const Weighted& weighted, Complex by) const {
+linear::IntegerVector RoundingSearch::nearest(const Weighted& weighted, Complex by) const {
   const VectorXcd y = problem_.target * by;
-  return lattice::nearest_plane(weighted.reduced,
-                                is_whole() ? VectorXd(as_real(weighted.rows * y))
-                                           : VectorXd(weighted.points * Eigen::Vector2d(by.real(), by.imag())));
+  return linear::nearest_plane(weighted.reduced,
+                               is_whole() ? VectorXd(as_real(weighted.rows * y))
+                                          : VectorXd(weighted.points * Eigen::Vector2d(by.real(), by.imag())));
 }
 
 std::vector<Rounding> RoundingSearch::best() const {
@@ -166,13 +165,13 @@ std::vector<Rounding> RoundingSearch::best() const {
   TaskProgress watch(execution_, kUsualTargets, static_cast<double>(problem_.Z.size()));
   std::set<std::vector<std::int64_t>> found;
   for (const Weighted& each : weighted_) {
-    std::vector<lattice::IntegerVector> list(turns.size() * scales);
+    std::vector<linear::IntegerVector> list(turns.size() * scales);
     run_throwing(execution_.workers(), static_cast<int>(list.size()), [&](int thread, int i) {
       watch(thread);
       const double size = scale * (1 + kScaleRange * (2.0 * (i % scales) / (scales - 1) - 1));
       list[i] = nearest(each, std::polar(size, turns[i / scales]));
     });
-    for (const lattice::IntegerVector& z : list) found.emplace(z.begin(), z.end());
+    for (const linear::IntegerVector& z : list) found.emplace(z.begin(), z.end());
   }
   std::vector<Rounding> list = best_of(problem_, found, {}, execution_, watch);
   for (int step = 0; step < kSteps && options_.steps && is_whole(); ++step) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "lattice/reduction.h"
+#include "linear/reduction.h"
 #include "tiling/rounding/rounding_metric.h"
 
 namespace holomorph::tiling {
@@ -17,7 +17,7 @@ struct RoundingOptions {
 };
 
 struct Rounding {
-  lattice::IntegerVector z;
+  linear::IntegerVector z;
   VectorXcd y;               ///< Z z
   double distortion = 1;     ///< added by the rounding: mean of (1 + |mu|) / (1 - |mu|), mu = B / A
   double density_ratio = 1;  ///< 95 % over 5 % quantile of |A|^2
@@ -41,7 +41,7 @@ struct RoundingRecord {
 class RoundingSearch {
  public:
   /// Costs a reduction for each of five weights. @pre the problem outlives this; its number of tiles may change.
-  /// @throws SolverError as lattice/reduction.h does; Cancelled
+  /// @throws SolverError as linear/reduction.h does; Cancelled
   RoundingSearch(const RoundingProblem& problem, const RoundingOptions& options, Execution& execution);
 
   /// Returns the best roundings, the best first. There is none if each one distorts too much or is much less even than
@@ -54,14 +54,14 @@ class RoundingSearch {
   struct Weighted {
     MatrixXcd rows;
     MatrixXd points;  // the target and a quarter turn of it, in the coordinates of the reduced basis
-    lattice::ReducedBasis reduced;
+    linear::ReducedBasis reduced;
   };
 
   bool is_whole() const;
   std::vector<double> phases() const;
   int scales() const;
   Weighted weighted(const MatrixXcd& rows);
-  lattice::IntegerVector nearest(const Weighted& weighted, Complex by) const;
+  linear::IntegerVector nearest(const Weighted& weighted, Complex by) const;
 
   const RoundingProblem& problem_;
   RoundingOptions options_;

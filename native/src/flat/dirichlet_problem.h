@@ -1,0 +1,77 @@
+// Functions with prescribed values, harmonic or with a prescribed Laplacian.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/execution.h"
+#include "forms/refined_solver.h"
+#include "mesh/delaunay.h"
+#include "structure/options.h"
+#include "structure/solver_report.h"
+
+namespace holomorph::flat {
+
+using structure::Options;
+
+/// One fixed map of a disk to the plane, continuous everywhere.
+struct PlaneMap {
+  Eigen::VectorXcd points;                   ///< #V
+  std::vector<int> corners;                  ///< four vertices of a rectangle
+  double modulus = 0, lower = 0, upper = 0;  ///< height over width of a rectangle, and its bounds
+  Eigen::VectorXd scale_factors;  ///< #V of a map with free boundary: length in the plane over that on the surface
+  std::vector<int> collapsed_triangles;  ///< triangles all of whose corners lie on one side of a rectangle
+  double harmonicity = 0;                ///< largest |L f| at a free vertex over the largest sum of its terms
+  double mollification = 0;
+  double metric = 0;  ///< as in structure::Certificate
+  int flip_count = 0;
+  structure::SolverReport solver;
+  std::vector<std::pair<std::string, double>> seconds;
+};
+
+struct DirichletSolution {
+  Eigen::MatrixXd functions;  ///< #V x m
+  Eigen::VectorXd energies;   ///< m, f . L f
+  double harmonicity = 0;     ///< largest |L f| at a free vertex over the largest sum of its terms
+  structure::SolverReport solver;
+};
+
+/// Computes sum_e k_e (f_head - f_tail)^2 of each column, m numbers, for any weights k_e.
+Eigen::VectorXd energies(const mesh::HalfEdges& half_edges, std::span<const double> weights,
+                         const Eigen::MatrixXd& functions);
+
+/// The linear system for one set of fixed vertices, natural at the rest of the boundary, with several right-hand sides.
+/// Refined where weights are large (forms/refined_solver.h).
+class DirichletProblem {
+ public:
+  /// @param columns about how many right-hand sides there will be, for the choice of the solver
+  /// @pre the discretisation outlives this. @throws SolverError, Cancelled
+  DirichletProblem(const mesh::Discretisation& discretisation, const std::vector<int>& fixed, int columns,
+                   const structure::Options& options, Execution& execution);
+
+  /// Solves L f = 0 at the free vertices, f = `values` at the fixed ones.
+  /// @param values #V x m, 0 at the free vertices
+  /// @throws SolverError, Cancelled
+  DirichletSolution harmonic(const Eigen::MatrixXd& values, Execution& execution);
+
+  /// Solves L f = `sources` at the free vertices, f = 0 at the fixed ones: #V x m.
+  /// @param sources #V x m; the rows of fixed vertices are ignored
+  /// @throws SolverError, Cancelled
+  Eigen::MatrixXd poisson(const Eigen::MatrixXd& sources, Execution& execution);
+
+ private:
+  const mesh::Discretisation& discretisation_;
+  std::vector<int> fixed_;
+  solver::Laplacian laplacian_;
+  forms::RefinedSolver solver_;
+};
+
+/// Solves as `DirichletProblem::harmonic` does, for a problem with no other right-hand sides.
+DirichletSolution solve_dirichlet(const mesh::Discretisation& discretisation, const std::vector<int>& fixed,
+                                  const Eigen::MatrixXd& values, const structure::Options& options,
+                                  Execution& execution);
+
+}  // namespace holomorph::flat

@@ -1,0 +1,183 @@
+#include "uv/turned_functions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/union_find.h"
+#include "solver/solver_choice.h"
+#include "uv/descent.h"
+
+namespace holomorph::uv {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of a turn by quarters
+
+// Calls body(edge, a, b, turn) once for each edge: a function at vertex a is that at b, times the turn.
+template <class Body>
+void for_edges(const mesh::Surface& surface, const Kept& kept, const Body& body) {
+  std::vector<char> done(surface.edges.size(), 0);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const int edge = surface.triangle_edges[t][i], j = (i + 1) % 3;
+      if (done[edge]) continue;
+      done[edge] = 1;
+      body(edge, surface.triangles[t][i], surface.triangles[t][j], std::conj(kept.turns[t][i]) * kept.turns[t][j]);
+    }
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Cover> Cover::of(const mesh::Surface& surface, const Kept& kept) {
+  const Unknowns& unknowns = kept.unknowns;
+  const int ground = 2 * unknowns.count;
+  const auto vertex = [&](int part, int sign) {
+    return unknowns.number[part] < 0 ? ground : 2 * unknowns.number[part] + (sign * unknowns.sign[part] < 0);
+  };
+  auto cover = std::make_unique<Cover>();
+  mesh::UnionFind pieces(ground + 1);
+  bool are_quarters = true;
+  for_edges(surface, kept, [&](int edge, int a, int b, Complex turn) {
+    const auto re = static_cast<int>(std::lround(turn.real())), im = static_cast<int>(std::lround(turn.imag()));
+    are_quarters &= std::abs(turn - Complex(re, im)) < kRounding;
+    for (const int part : {0, 1}) {
+      // u_a = re u_b - im v_b, v_a = im u_b + re v_b, and one of both is 0.
+      const int other = re != 0 ? part : 1 - part, by = re != 0 ? re : part == 0 ? -im : im;
+      for (const int sign : {1, -1}) {
+        const int from = vertex(2 * a + part, sign), to = vertex(2 * b + other, by * sign);
+        if (from == to) continue;
+        cover->edges.push_back({edge, {from, to}, {}, {}});
+        pieces.join(from, to);
+      }
+    }
+  });
+  for (int v = 0; v <= ground; ++v) are_quarters &= pieces.lowest(v) == pieces.lowest(ground);
+  if (!are_quarters) return nullptr;
+  // The pattern: rows with their columns ascending, each once.
+  std::vector<int> first(ground + 2, 0);
+  for (const Edge& edge : cover->edges) ++first[edge.ends[0] + 1], ++first[edge.ends[1] + 1];
+  for (int v = 0; v <= ground; ++v) first[v + 1] += first[v] + 1;
+  std::vector<int> next(first.begin(), first.end() - 1), neighbours(first.back());
+  for (int v = 0; v <= ground; ++v) neighbours[next[v]++] = v;
+  for (const Edge& edge : cover->edges) {
+    neighbours[next[edge.ends[0]]++] = edge.ends[1];
+    neighbours[next[edge.ends[1]]++] = edge.ends[0];
+  }
+  cover->starts.push_back(0);
+  for (int v = 0; v <= ground; ++v) {
+    const auto begin = neighbours.begin() + first[v], end = neighbours.begin() + first[v + 1];
+    std::sort(begin, end);
+    cover->columns.insert(cover->columns.end(), begin, std::unique(begin, end));
+    cover->starts.push_back(static_cast<int>(cover->columns.size()));
+  }
+  const auto entry = [&](int row, int column) {
+    const auto begin = cover->columns.begin() + cover->starts[row],
+               end = cover->columns.begin() + cover->starts[row + 1];
+    return static_cast<int>(std::lower_bound(begin, end, column) - cover->columns.begin());
+  };
+  for (Edge& edge : cover->edges) {
+    for (const int i : {0, 1}) {
+      edge.entries[i] = entry(edge.ends[i], edge.ends[1 - i]);
+      edge.diagonals[i] = entry(edge.ends[i], edge.ends[i]);
+    }
+  }
+  return cover;
+}
+
+solver::Laplacian Cover::laplacian(const Array<double>& edge_weights) const {
+  solver::Laplacian result{starts, columns, Array<double>(columns.size(), 0.0)};
+  for (const Edge& edge : edges) {
+    for (const int i : {0, 1}) {
+      result.weights[edge.entries[i]] -= edge_weights[edge.edge];
+      result.weights[edge.diagonals[i]] += edge_weights[edge.edge];
+    }
+  }
+  return result;
+}
+
+TurnedSolver::TurnedSolver(const mesh::Surface& surface, const Kept& kept, const std::string& solver)
+    : surface_(surface), kept_(kept) {
+  if (solver::choose_method(solver, 4 * surface.vertex_count, 1).method == solver::Method::multigrid)
+    cover_ = Cover::of(surface, kept);
+}
+
+void TurnedSolver::make(const Array<double>& edge_weights, Execution& execution) {
+  multigrid_.reset();  // first, so that its memory is free
+  if (cover_) {
+    multigrid_ =
+        solver::make_solver(solver::Method::multigrid, cover_->laplacian(edge_weights), {cover_->ground()}, execution);
+    return;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for_edges(surface_, kept_, [&](int edge, int a, int b, Complex turn) {
+    kept_.unknowns.add_difference(a, b, edge_weights[edge], turn, entries);
+  });
+  Eigen::SparseMatrix<double> lower(kept_.unknowns.count, kept_.unknowns.count);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  factor_.compute(lower, {});
+}
+
+Function TurnedSolver::precondition(const Function& gradient, Execution& execution) {
+  const Eigen::VectorXd b = kept_.unknowns.gathered(gradient);
+  if (!cover_) return kept_.unknowns.spread(kInverse * factor_.solve(Eigen::MatrixXd(b)).col(0));
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(cover_->ground() + 1, 1);
+  for (Eigen::Index i = 0; i < b.size(); ++i) B(2 * i, 0) = b[i], B(2 * i + 1, 0) = -b[i];
+  const solver::Solution X = multigrid_->precondition(B, {solver::Condition::dirichlet}, execution);
+  Eigen::VectorXd x(b.size());
+  for (Eigen::Index i = 0; i < b.size(); ++i) x[i] = 0.5 * kInverse * (X(2 * i, 0) - X(2 * i + 1, 0));
+  return kept_.unknowns.spread(x);
+}
+
+void Unknowns::add(int p, int q, double value, std::vector<Eigen::Triplet<double>>& entries) const {
+  const int a = number[p], b = number[q];
+  if (a < 0 || b < 0 || value == 0) return;
+  const double signed_value = sign[p] * sign[q] * value;
+  if (a == b)
+    entries.emplace_back(a, a, p == q ? signed_value : 2 * signed_value);
+  else
+    entries.emplace_back(std::max(a, b), std::min(a, b), signed_value);
+}
+
+void Unknowns::add_difference(int a, int b, double weight, Complex turn,
+                              std::vector<Eigen::Triplet<double>>& entries) const {
+  for (const int part : {0, 1}) {
+    add(2 * a + part, 2 * a + part, weight, entries);
+    add(2 * b + part, 2 * b + part, weight, entries);
+    if (a != b) add(2 * a + part, 2 * b + part, -weight * turn.real(), entries);
+  }
+  if (a == b) return;
+  add(2 * a, 2 * b + 1, weight * turn.imag(), entries);
+  add(2 * a + 1, 2 * b, -weight * turn.imag(), entries);
+}
+
+Function Unknowns::spread(const Eigen::VectorXd& x) const {
+  Function function(number.size() / 2, 0.0);
+  for (std::size_t v = 0; v < function.size(); ++v) {
+    const auto part = [&](std::size_t p) { return number[p] < 0 ? 0.0 : sign[p] * x[number[p]]; };
+    function[v] = {part(2 * v), part(2 * v + 1)};
+  }
+  return function;
+}
+
+Eigen::VectorXd Unknowns::gathered(const Function& function) const {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(count);
+  for (std::size_t v = 0; v < function.size(); ++v) {
+    const double parts[2] = {function[v].real(), function[v].imag()};
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (number[2 * v + i] >= 0) x[number[2 * v + i]] += sign[2 * v + i] * parts[i];
+    }
+  }
+  return x;
+}
+
+std::vector<char> Unknowns::shared() const {
+  std::vector<int> parts(count, 0);
+  for (const int n : number) {
+    if (n >= 0) ++parts[n];
+  }
+  std::vector<char> result(number.size(), 0);
+  for (std::size_t p = 0; p < number.size(); ++p) result[p] = number[p] >= 0 && parts[number[p]] > 1;
+  return result;
+}
+
+}  // namespace holomorph::uv

@@ -1,0 +1,83 @@
+// What evening keeps, and functions on vertices that turn from corner to corner, some of whose parts are one unknown.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/execution.h"
+#include "base/page_allocator.h"
+#include "mesh/surface.h"
+#include "solver/direct/sparse_cholesky.h"
+#include "solver/laplace_solver.h"
+#include "uv/strain_energy.h"
+
+namespace holomorph::uv {
+
+/// The part 2 v of a function is its u at vertex v, the part 2 v + 1 its v there: unknown `number`, or less that where
+/// the sign is -1. So the vertices along a line of the lattice move as one across it.
+struct Unknowns {
+  std::vector<int> number;        ///< 2 #V; -1: the part is 0
+  std::vector<signed char> sign;  ///< 2 #V
+  int count = 0;
+
+  /// Adds a symmetric matrix's entries at (p, q) and (q, p), parts of functions, to the lower triangle of that of the
+  /// unknowns.
+  void add(int p, int q, double value, std::vector<Eigen::Triplet<double>>& entries) const;
+  /// Adds weight |turn y_b - y_a|^2 for vertices a and b.
+  void add_difference(int a, int b, double weight, Complex turn, std::vector<Eigen::Triplet<double>>& entries) const;
+
+  /// Each part of a function of the unknowns. @param x #unknowns
+  Function spread(const Eigen::VectorXd& x) const;
+  /// The transpose of that: the sums over the parts of each unknown.
+  Eigen::VectorXd gathered(const Function& function) const;
+  /// Whether other parts are the same unknown. @return 2 #V
+  std::vector<char> shared() const;
+};
+
+/// What evening does not change, besides the jumps of the map.
+struct Kept {
+  std::vector<int> poles;  ///< vertices at which the map is infinite
+  std::vector<int> u, v;   ///< ascending vertices at which u, or v, keeps its value, as on a straight boundary
+  CornerTurns turns;       ///< by which the function turns at corners, as the jumps of the map do
+  Unknowns unknowns;       ///< of a function that turns; parts that are none are in u or v as well
+};
+
+// The preconditioner of functions that turn from corner to corner: u and v are unknowns of one system.
+
+/// The parts of a function that turns by quarters, with both signs, as vertices of a graph: the parts of one end of an
+/// edge are, up to their signs, those of the other end. So the Laplacian of the connection is the plain Laplacian of
+/// this graph, on functions that change sign with the part; multigrid knows only plain ones.
+struct Cover {
+  /// @return none where functions turn by other angles, or no part is held in a piece of the graph
+  static std::unique_ptr<Cover> of(const mesh::Surface& surface, const Kept& kept);
+
+  int ground() const { return static_cast<int>(starts.size()) - 2; }  ///< the vertex of all parts that are 0
+  solver::Laplacian laplacian(const Array<double>& edge_weights) const;
+
+  struct Edge {
+    int edge;                               ///< of the surface
+    int ends[2], entries[2], diagonals[2];  ///< and where its entries are
+  };
+  std::vector<Edge> edges;
+  Array<int> starts, columns;  ///< of the Laplacian. Unknown i is vertex 2 i, and less that is vertex 2 i + 1
+};
+
+class TurnedSolver {
+ public:
+  /// @param solver "auto", "direct" or "multigrid"
+  TurnedSolver(const mesh::Surface& surface, const Kept& kept, const std::string& solver);
+
+  void make(const Array<double>& edge_weights, Execution& execution);
+  Function precondition(const Function& gradient, Execution& execution);
+
+ private:
+  const mesh::Surface& surface_;
+  const Kept& kept_;
+  std::unique_ptr<Cover> cover_;  // none: the factor
+  std::unique_ptr<solver::LaplaceSolver> multigrid_;
+  solver::SparseCholesky factor_;
+};
+
+}  // namespace holomorph::uv
