@@ -8,7 +8,7 @@
 
 #include "forms/laplacian.h"
 #include "mesh/delaunay.h"
-#include "mesh/intrinsic_triangulation.h"
+#include "mesh/intrinsic_surface.h"
 
 namespace holomorph::benchmarks {
 

@@ -10,9 +10,9 @@
 #include "mesh/io/read.h"
 #include "mesh/make_surface.h"
 #include "progressive/simplify.h"
+#include "structure/certified_forms.h"
 #include "structure/harmonic_solver.h"
 #include "structure/paper_forms.h"
-#include "structure/topology.h"
 #include "topology/fundamental_domain.h"
 
 namespace {

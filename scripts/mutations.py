@@ -148,7 +148,7 @@ MUTATIONS = (
         ("gradients-rounding", "norm <= kRoundingOfTerms * terms(b)", "norm <= 1e10 * terms(b)", "native:*Gradients*"),
     )
     | of(
-        ROOM + "structure/memory_plan.cpp",
+        ROOM + "structure/harmonic_solver.cpp",
         ("memory-edges", "kPerEdge = 150", "kPerEdge = 37", MEMORY),
         ("memory-multigrid", "kMultigrid = 350", "kMultigrid = 87", MEMORY),
         ("memory-columns", "kPerColumn = 24", "kPerColumn = 6", MEMORY),
@@ -219,7 +219,7 @@ MUTATIONS = (
         ("folded", "if seen.folded > FOLDED", "if seen.folded > 9", VERDICT),
     )
     | of(
-        ROOM + "mesh/facets.cpp",
+        ROOM + "mesh/hard_edges.cpp",
         ("strips", "kNarrow = 2.5", "kNarrow = 0.25", "tests/core/mesh/test_facets.py"),
         ("curved-facets", "kLevel = 0.97", "kLevel = 0.0", LOOKS),
     )
@@ -242,7 +242,7 @@ MUTATIONS = (
         ("shear-free", "kShear = 2;", "kShear = 0.2;", EYE),
     )
     | of(
-        ROOM + "choice/copies.cpp",
+        ROOM + "choice/part.cpp",
         ("copies", "kSingle = 0x1p-22", "kSingle = 0x1p-18", PARTS),
         ("copies-tenth", "kSingle = 0x1p-22", "kSingle = 0x1p-25", PARTS),
     )
@@ -253,7 +253,7 @@ MUTATIONS = (
         ("slivers-rounding", "kCoordinateRounding = 0x1p-20", "kCoordinateRounding = 0x1p-40", SLIVERS),
     )
     | of(ROOM + "mesh/stitching.cpp", ("slivers-as-others", "? 2 : 0;  // what", "? 0 : 0;  // what", SLIVERS))
-    | of(ROOM + "mesh/border_paths.cpp", ("paths-stop", "kShortest = 1e-12", "kShortest = 0", SLIVERS))
+    | of(ROOM + "mesh/cut_open.cpp", ("paths-stop", "kShortest = 1e-12", "kShortest = 0", SLIVERS))
     | of(ROOM + "mesh/hard_edges.cpp", ("slivers-own-normals", "sums[owners[f]]", "sums[f]", SLIVERS))
     | of(ROOM + "uv/quality.cpp", ("overlap-twice", "std::abs(winding) > 1", "std::abs(winding) > 2", OVERLAP))
     | of(ROOM + "flat/pieces.cpp", ("windows-shortest", "std::pair(-a.length", "std::pair(a.length", MIXED))
@@ -303,12 +303,12 @@ MUTATIONS = (
     | of(ROOM + "choice/size.cpp", ("window-middle", "-std::abs(std::log", "std::abs(std::log", "native:BestWindow*"))
     | of(ROOM + "choice/truncated.cpp", ("cut-off", "kCut = 1.0 / 3", "kCut = 2.0 / 3", "native:Truncated*"))
     | of(
-        ROOM + "choice/mixed_map.cpp",
+        ROOM + "choice/piece_search.cpp",
         ("cones-of-pieces", "for (int& v : tiling.cones) v = vertex_index[v];", "", ASKED),
     )
     | of(
         ROOM + "choice/map.cpp",
-        ("cones-cost", "mixed_->tilings) marks.cones +=", "mixed_->tilings) marks.cones *=", ASKED),
+        ("cones-cost", "tilings_) marks.cones +=", "tilings_) marks.cones *=", ASKED),
     )
     | of(PACKAGE + "batch/textured.py", ("centre-of-turns", "+ np.array(found.centre) / images", "", GLB))
     | of(

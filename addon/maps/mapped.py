@@ -96,8 +96,7 @@ class MappedPart:
     @property
     def seams(self):
         """(#S, 2) vertices of the whole object: where the main map is cut."""
-        made, structure = self.map.own, self.component.structure
-        return self.vertices(made.seams) if made else structure.edges[structure.seams]
+        return self.vertices(self.map.seams)
 
 
 @dataclass(frozen=True)

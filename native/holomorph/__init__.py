@@ -17,7 +17,7 @@ Contents. help(holomorph.Surface) tells more, and so for each name.
 
 Meshes: Surface; Repairs, Cut, Refused; punch_holes, double_cover, symmetrised, cut_along; ProgressiveMesh,
 LevelOfDetail.
-The map for a mesh: automatic_map, automatic_maps, Map, Mixed; form_map, island_map, Islands; arrangement, layout,
+The map for a mesh: automatic_map, automatic_maps, Map; form_map, island_map; arrangement, layout,
 Frame, frame, place; report.
 Its quality: Verdict, verdict, Seen, UNEVEN, Quality, distortion; CoarsePlace, coarse_places.
 Structures: conformal_structure, automatic_structure, AnyStructure, SOLVERS; ConformalStructure, BoundedStructure,
@@ -62,13 +62,10 @@ from .mesh.holes import punch_holes
 from .moduli.igusa import igusa_invariants
 from .tiling.image_lattice import ImageLattice, image_lattice
 from .tiling.image_turns import ImageTurns, image_turns
-from .cutting.island_layout import Islands
-from .cutting.island_map import island_map
 from .cutting.islands import islands
 from .levels.levels import LevelOfDetail
 from .forms.log_map import log_map
-from .maps.map import Map, form_map
-from .maps.mixed import Mixed
+from .maps.map import Map, form_map, island_map
 from .forms.narrow_bounds import Refinement
 from .packing.layout import Frame, frame, place
 from .tiles.places import Lines, Places
@@ -110,13 +107,11 @@ if TYPE_CHECKING:  # at run time, help() would print all that it names in full, 
         "FundamentalDomain",
         "ImageLattice",
         "ImageTurns",
-        "Islands",
         "InvalidMesh",
         "LevelOfDetail",
         "Lines",
         "Map",
         "MemoryPlan",
-        "Mixed",
         "OutOfMemory",
         "ProgressiveMesh",
         "PeriodMatrix",

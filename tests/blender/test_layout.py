@@ -29,7 +29,7 @@ def test_rectangles_lie_in_the_square_and_apart(kind, count, margin):
     assert corners.min() >= -rounding and (corners + sizes).max() <= side + rounding
     if kind == "points":
         return
-    gap = min(margin, 0.3 / np.sqrt(count)) * side  # kMostGap of flat/shelves.cpp
+    gap = min(margin, 0.3 / np.sqrt(count)) * side  # kMostGap of flat/arrangement.cpp
     x, y = corners.T
     width, height = sizes.T
     beside = np.maximum(x[:, None] - (x + width)[None], x[None] - (x + width)[:, None])

@@ -87,8 +87,8 @@ def part_report(made: Map) -> dict[str, Any]:
         return plain(about | {"forms": 0, "main_map": main_map})
     entry = component_report(made.surface, made.structure, main_map)
     entry["forms"] = made.structure.form_count
-    if made.mixed:
-        entry["tilings"] = [_tiling_report(tiling, made.surface.vertex_index) for tiling in made.mixed.tilings]
+    if made.kind == "mixed":
+        entry["tilings"] = [_tiling_report(tiling, made.surface.vertex_index) for tiling in made.tilings]
     return entry | ({"tiling": _tiling_report(made.tiling, made.surface.vertex_index)} if made.tiling else {})
 
 

@@ -18,7 +18,7 @@ from ..mesh.origin import edges_on_part, on_part
 from ..mesh.surface import Surface
 from ..tiling.options import part_of, tile_options
 from ..tiling.tilings import Poles
-from ..tiling.turned import AUTOMATIC
+from ..tiling.turned import AUTOMATIC, NO_EDGES
 from .automatic_structure import AnyStructure
 from .chosen_structures import PartStructure
 from .late_structure import LateStructure
@@ -68,9 +68,11 @@ class Request:
             structure._core if structure else None,
             main=self.main,
             evenness=checked_evenness(self.evenness),
-            coefficients=None,  # those of the balanced map
             tiling=tile_options(self.surface, self.poles, direction=self.direction, **self.options),
             lines=self.options.get("lines", AUTOMATIC),
+            seams=NO_EDGES,
+            hard_edges=0.0,
+            most_stretch=0.0,
             effort=self.effort,
         )
 

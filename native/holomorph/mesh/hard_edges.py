@@ -22,7 +22,7 @@ def is_hard(surface, degrees):
 
 def breaks(surface):
     """(#E,) radians by which a surface breaks off at an edge: the bend of its two faces, or the angle between the
-    facets to both sides (mesh/facets.h), if that is more."""
+    facets to both sides (mesh/hard_edges.h), if that is more."""
     return _native.breaks(surface._native)
 
 

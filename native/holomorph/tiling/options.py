@@ -63,7 +63,6 @@ def tile_options(
         max_turn=real_number(max_turn, "max_turn"),
         boundary=boundary,
         max_added=max_added,
-        size_counts=False,  # of a part alone
         moves=list(zip(moves, own_poles(surface, component, list(moves.values())))),
         turns=turns,
         lines=lines,

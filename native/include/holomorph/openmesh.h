@@ -9,6 +9,5 @@
 //   }
 #pragma once
 
-#include "openmesh/attributes.h"
 #include "openmesh/progmesh_records.h"
 #include "openmesh/surface_of_mesh.h"

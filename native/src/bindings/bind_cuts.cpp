@@ -8,9 +8,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
-#include "mesh/border_paths.h"
 #include "mesh/cut_open.h"
-#include "mesh/facets.h"
 #include "mesh/hard_edges.h"
 
 namespace holomorph::bindings {

@@ -8,49 +8,14 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
-#include "flat/island_search.h"
+#include "flat/arrangement.h"
 #include "flat/pieces.h"
-#include "flat/shelves.h"
 #include "flat/split_overlaps.h"
 
 namespace holomorph::bindings {
 namespace {
 
 using namespace pybind11::literals;
-using flat::Islands;
-using flat::IslandSearch;
-using SharedIslands = std::shared_ptr<const Islands>;
-
-// Keeps the surface.
-class Search {
- public:
-  Search(std::shared_ptr<mesh::Surface> surface, double evenness, const std::string& up, bool is_upright)
-      : surface_(std::move(surface)) {
-    Execution execution;
-    const py::gil_scoped_release unlocked;
-    search_ =
-        std::make_unique<IslandSearch>(*surface_, flat::IslandOptions{evenness, up_axis(up), is_upright}, execution);
-  }
-
-  SharedIslands known() const { return search_->known(); }
-
-  SharedIslands best(double most, double work, int threads, const py::object& progress) {
-    Execution execution(threads, callback(progress));
-    const py::gil_scoped_release unlocked;
-    return search_->best(most, work, execution);
-  }
-
-  SharedIslands at_once(double most, int threads, const py::object& progress) {
-    Execution execution(threads, callback(progress));
-    const py::gil_scoped_release unlocked;
-    return search_->at_once(most, execution);
-  }
-
- private:
-  std::shared_ptr<mesh::Surface> surface_;
-  std::unique_ptr<IslandSearch> search_;
-};
-
 // (#F,) the part of each polygon
 py::array parted(const mesh::Surface& surface, const Contiguous<double>& uv, const py::object& progress) {
   const uv::UvArray flat = Eigen::Map<const uv::UvArray>(uv.data(), uv.shape(0), 2);
@@ -122,32 +87,6 @@ std::pair<Parts, double> cut_in_hiding(const mesh::Surface& surface, const std::
 }  // namespace
 
 void bind_islands(py::module_& m) {
-  py::class_<Islands, std::shared_ptr<Islands>>(m, "Islands")
-      .def_property_readonly("uv", [](const Islands& made) { return copy(made.uv); })
-      .def_property_readonly("seams",
-                             [](const py::object& self) { return view(self.cast<const Islands&>().seams, self); })
-      .def_readonly("count", &Islands::count)
-      .def_readonly("soft_length", &Islands::soft_length)
-      .def_readonly("hard_length", &Islands::hard_length)
-      .def_readonly("quality", &Islands::quality)
-      .def_readonly("evenness", &Islands::evenness);
-  const auto mutable_one = [](const SharedIslands& made) { return std::const_pointer_cast<Islands>(made); };
-  py::class_<Search>(m, "IslandSearch")
-      .def(py::init<std::shared_ptr<mesh::Surface>, double, const std::string&, bool>(), "surface"_a, "evenness"_a,
-           "up"_a, "is_upright"_a)
-      .def_property_readonly("known", [=](const Search& search) { return mutable_one(search.known()); })
-      .def(
-          "best",
-          [=](Search& search, double most, double work, int threads, const py::object& progress) {
-            return mutable_one(search.best(most, work, threads, progress));
-          },
-          "most"_a, "work"_a, "threads"_a, "progress"_a)
-      .def(
-          "at_once",
-          [=](Search& search, double most, int threads, const py::object& progress) {
-            return mutable_one(search.at_once(most, threads, progress));
-          },
-          "most"_a, "threads"_a, "progress"_a);
   m.def("parted", &parted, "surface"_a, "uv"_a, "progress"_a);
   m.def("cut_apart", &cut_apart, "surface"_a, "names"_a);
   m.def("cut_in_hiding", &cut_in_hiding, "surface"_a, "up"_a, py::kw_only(), "threads"_a, "progress"_a);

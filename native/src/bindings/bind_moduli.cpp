@@ -12,7 +12,6 @@
 #include "forms/element_forms.h"
 #include "forms/reference_element.h"
 #include "mesh/intrinsic_surface.h"
-#include "moduli/continuation.h"
 #include "moduli/equivalence.h"
 #include "moduli/pull_back_uv.h"
 #include "moduli/similarities.h"

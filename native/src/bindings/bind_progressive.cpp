@@ -12,7 +12,6 @@
 #include "bindings/bindings.h"
 #include "mesh/corner_turns.h"
 #include "mesh/make_surface.h"
-#include "progressive/checks.h"
 #include "progressive/corner_values.h"
 #include "progressive/progressive_mesh.h"
 #include "progressive/refinement.h"

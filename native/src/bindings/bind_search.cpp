@@ -13,10 +13,12 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/records.h"
+#include "choice/any_structure.h"
 #include "choice/automatic_map.h"
 #include "choice/automatic_structure.h"
 #include "choice/map_search.h"
 #include "choice/truncated.h"
+#include "choice/untiled.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -109,67 +111,76 @@ void bind_any_structure(py::module_& m) {
       "part"_a, py::kw_only(), "solver"_a, "threads"_a, "memory_limit"_a, "progress"_a);
 }
 
+constexpr std::array<const char*, 5> kMains{"automatic", "seamless", "untiled", "balanced", "islands"};
+
+// The facade has checked the names.
 Request request(const MutablePart& part, const Shared& structure, const std::string& main, double evenness,
-                std::optional<Eigen::VectorXcd> coefficients, const TileOptions& tiling, const std::string& lines,
-                double effort) {
+                const TileOptions& tiling, const std::string& lines, const Contiguous<int>& seams, double hard_edges,
+                double most_stretch, double effort) {
   Request result;
   result.part = part;
   result.structure = structure;
-  result.main = main == "seamless"   ? Main::kSeamless
-                : main == "untiled"  ? Main::kUntiled
-                : main == "balanced" ? Main::kBalanced
-                                     : Main::kAutomatic;
+  result.main = static_cast<Main>(std::ranges::find(kMains, main) - kMains.begin());
   result.evenness = evenness;
-  result.coefficients = std::move(coefficients);
   result.tiling = tiling;
-  if (lines == "automatic") {
-    result.rows.reset();
-  } else {
-    result.rows = rows_named(lines);
-  }
+  if (lines != "automatic") result.rows = rows_named(lines);
+  result.cuts = {rows<int, 2>(seams), hard_edges, most_stretch};
   result.effort = effort;
   return result;
 }
 
+const char* kind(const Map& made) {
+  if (made.tiling()) return "tiling";
+  return made.is_tiled() ? "mixed" : made.is_in_islands() ? "islands" : "forms";
+}
+
+// What a layout says; nothing of a tiling, which has no visible seams.
+template <class Value>
+auto of_layout(Value flat::Layout::*member) {
+  return [member](const Map& made) { return made.layout() ? *made.layout().*member : Value(); };
+}
+
+std::vector<std::shared_ptr<SeamlessMap>> tilings(const Map& made) {
+  std::vector<std::shared_ptr<SeamlessMap>> result;
+  for (const SeamlessPointer& tiling : made.tilings()) result.push_back(shared(tiling));
+  return result;
+}
+
 void bind_maps_of_parts(py::module_& m) {
-  py::class_<FormMap, std::shared_ptr<FormMap>>(m, "FormMap")
-      .def_property_readonly("coefficients", [](const FormMap& made) { return copy(made.coefficients); })
-      .def_readonly("evenness", &FormMap::evenness);
-  py::class_<Mixed, std::shared_ptr<Mixed>>(m, "Mixed")
-      .def_property_readonly("tilings",
-                             [](const Mixed& made) {
-                               std::vector<std::shared_ptr<SeamlessMap>> result;
-                               for (const SeamlessPointer& tiling : made.tilings) result.push_back(shared(tiling));
-                               return result;
-                             })
-      .def_property_readonly("seams",
-                             [](const py::object& self) { return view(self.cast<const Mixed&>().seams, self); })
-      .def_readonly("evenness", &Mixed::evenness)
-      .def_readonly("soft_length", &Mixed::soft_length)
-      .def_readonly("hard_length", &Mixed::hard_length);
   py::class_<Map, MutableMap>(m, "Map")
+      .def_property_readonly("kind", &kind)
       .def_property_readonly("uv", [](const Map& made) { return copy(made.uv()); })
       .def_property_readonly("quality", &Map::quality)
+      .def_property_readonly("evenness", &Map::evenness)
       .def_property_readonly("why", &Map::why)
       .def_property_readonly("structure", [](const Map& made) { return made.structure(); })
-      .def_property_readonly("forms", [](const Map& made) { return shared(made.forms()); })
-      .def_property_readonly("tiling", [](const Map& made) { return shared(made.tiling()); })
-      .def_property_readonly("islands", [](const Map& made) { return shared(made.islands()); })
-      .def_property_readonly("mixed", [](const Map& made) { return shared(made.mixed()); })
-      .def_property_readonly("is_tiled", &Map::is_tiled)
-      .def_property_readonly("density", &Map::density)
-      .def_property_readonly("cost", &Map::cost);
+      .def_property_readonly("seams",
+                             [](const py::object& self) { return view(self.cast<const Map&>().seams(), self); })
+      .def_property_readonly("soft_length", of_layout(&flat::Layout::soft_length))
+      .def_property_readonly("hard_length", of_layout(&flat::Layout::hard_length))
+      .def_property_readonly("islands", of_layout(&flat::Layout::islands))
+      .def_property_readonly("tilings", &tilings)
+      .def_property_readonly("coefficients", [](const Map& made) { return copy(made.coefficients()); });
   m.def(
       "form_map",
-      [](const Shared& structure, std::optional<Eigen::VectorXcd> coefficients, double evenness, bool is_upright,
-         const std::string& why, int threads, const py::object& progress) {
+      [](const Shared& structure, double evenness, bool is_upright, const std::string& why, int threads,
+         const py::object& progress) {
         return unlocked(threads, progress, [&](Execution& execution) {
           execution.stage("map", 0.0, 1.0);
-          return shared(choice::form_map(structure->part(), structure, std::move(coefficients), evenness, is_upright,
-                                         why, execution));
+          return shared(choice::form_map(structure->part(), structure, evenness, is_upright, why, execution));
         });
       },
-      "structure"_a, py::kw_only(), "coefficients"_a, "evenness"_a, "is_upright"_a, "why"_a, "threads"_a, "progress"_a);
+      "structure"_a, py::kw_only(), "evenness"_a, "is_upright"_a, "why"_a, "threads"_a, "progress"_a);
+  m.def(
+      "island_map",
+      [](const MutablePart& part, double evenness, int threads, const py::object& progress) {
+        return unlocked(threads, progress, [&](Execution& execution) {
+          execution.stage("map", 0.0, 1.0);
+          Untiled untiled(part, nullptr, evenness, true, execution);
+          return shared(untiled.islands(Untiled::kInfinity, Untiled::kInfinity, execution));
+        });
+      },
+      "part"_a, py::kw_only(), "evenness"_a, "threads"_a, "progress"_a);
 }
 
 using Window2 = std::optional<std::pair<double, double>>;
@@ -186,8 +197,8 @@ Window2 window_of(const SizePolicy& size) {
 
 void bind_map_objects(py::module_& m) {
   py::class_<Request>(m, "Request")
-      .def(py::init(&request), "part"_a, "structure"_a, py::kw_only(), "main"_a, "evenness"_a, "coefficients"_a,
-           "tiling"_a, "lines"_a, "effort"_a);
+      .def(py::init(&request), "part"_a, "structure"_a, py::kw_only(), "main"_a, "evenness"_a, "tiling"_a, "lines"_a,
+           "seams"_a, "hard_edges"_a, "most_stretch"_a, "effort"_a);
   py::class_<SizePolicy>(m, "SizePolicy")
       .def(py::init(&size_policy), "density"_a, "tries"_a, "tolerance"_a, "window"_a, "near"_a)
       .def_static(

@@ -10,7 +10,7 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/records.h"
-#include "flat/disk_map.h"
+#include "flat/dirichlet_problem.h"
 #include "forms/certain_bounds.h"
 #include "structure/conformal_structure.h"
 #include "structure/harmonic_solver.h"

@@ -7,7 +7,7 @@
 #include "bindings/bindings.h"
 #include "bindings/records.h"
 #include "choice/tilers.h"
-#include "mesh/self_intersections.h"
+#include "mesh/triangle_tree.h"
 #include "tiles/cells.h"
 #include "tiles/lines_and_places.h"
 #include "tiles/relief.h"
@@ -40,7 +40,7 @@ std::shared_ptr<choice::Part> part(const std::shared_ptr<mesh::Surface>& surface
 TileOptions tile_options(double tiles, double evenness, std::optional<int> count, std::vector<int> poles,
                          const std::vector<bool>& allowed, const std::array<Complex, 2>& lattice, bool is_upright,
                          std::optional<std::array<double, 3>> direction, std::optional<double> turn, double max_turn,
-                         const std::string& boundary, std::optional<double> max_added, bool size_counts,
+                         const std::string& boundary, std::optional<double> max_added,
                          const std::vector<std::pair<int, int>>& moves, int turns, const std::string& lines,
                          const Contiguous<int>& marked, std::optional<std::vector<int>> missing) {
   TileOptions result;
@@ -57,7 +57,6 @@ TileOptions tile_options(double tiles, double evenness, std::optional<int> count
                     : boundary == "free"   ? BoundaryLines::kFree
                                            : BoundaryLines::kAutomatic;
   result.max_added = max_added;
-  result.size_counts = size_counts;
   for (const auto& [pole, vertex] : moves) result.moves.push_back({pole, vertex});
   result.turns = turns;
   result.rows = rows_named(lines);
@@ -71,8 +70,8 @@ void bind_tilings_of_parts(py::module_& m) {
       .def(py::init(&part), "surface"_a, "up"_a, "labels"_a);
   py::class_<TileOptions>(m, "TileOptions")
       .def(py::init(&tile_options), py::kw_only(), "tiles"_a, "evenness"_a, "count"_a, "poles"_a, "allowed"_a,
-           "lattice"_a, "is_upright"_a, "direction"_a, "turn"_a, "max_turn"_a, "boundary"_a, "max_added"_a,
-           "size_counts"_a, "moves"_a, "turns"_a, "lines"_a, "marked"_a, "missing"_a);
+           "lattice"_a, "is_upright"_a, "direction"_a, "turn"_a, "max_turn"_a, "boundary"_a, "max_added"_a, "moves"_a,
+           "turns"_a, "lines"_a, "marked"_a, "missing"_a);
   py::class_<SeamlessMap, std::shared_ptr<SeamlessMap>>(m, "SeamlessMap")
       .def_property_readonly("uv", [](const SeamlessMap& made) { return copy(made.uv); })
       .def_readonly("quality", &SeamlessMap::quality)

@@ -67,8 +67,8 @@ double on_first(double density, const Copy& copy) { return density * copy.scale 
 bool are_alike(const Request& a, const Request& b) {
   const bool may_be_chosen = a.main == Main::kBalanced || b.main == Main::kBalanced;
   if (may_be_chosen && a.structure != b.structure) return false;
-  return a.main == b.main && a.evenness == b.evenness && a.coefficients == b.coefficients && a.tiling == b.tiling &&
-         a.rows == b.rows && a.effort == b.effort;
+  return a.main == b.main && a.evenness == b.evenness && a.tiling == b.tiling && a.rows == b.rows && a.cuts == b.cuts &&
+         a.effort == b.effort;
 }
 
 bool are_same(const mesh::Surface& a, const mesh::Surface& b) {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "choice/copies.h"
 #include "choice/map.h"
+#include "choice/part.h"
 #include "choice/request.h"
 #include "choice/size.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "choice/solved_structures.h"
+#include "choice/any_structure.h"
 #include "choice/truncated.h"
 #include "flat/free_boundary.h"
 #include "flat/rectangle.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "choice/any_structure.h"
-#include "structure/options.h"
+#include "structure/solver_report.h"
 
 namespace holomorph::choice {
 

@@ -89,12 +89,14 @@ std::string size_range(const uv::Quality& quality) {
   return text.str();
 }
 
-Map::Map(PartPointer part, StructurePointer structure, FormMap made, std::string why, Execution& execution)
+Map::Map(PartPointer part, StructurePointer structure, LayoutPointer made, std::string why, Execution& execution,
+         std::vector<SeamlessPointer> tilings, Eigen::VectorXcd coefficients)
     : part_(std::move(part)),
       structure_(std::move(structure)),
       why_(std::move(why)),
-      forms_(std::make_shared<const FormMap>(std::move(made))) {
-  if (structure_->kind() == MapKind::kLog) pole_count_ = static_cast<int>(structure_->poles().size());
+      layout_(std::move(made)),
+      tilings_(std::move(tilings)),
+      coefficients_(std::move(coefficients)) {
   measure(execution);
 }
 
@@ -102,25 +104,14 @@ Map::Map(PartPointer part, StructurePointer structure, SeamlessPointer made, Exe
     : part_(std::move(part)),
       structure_(std::move(structure)),
       why_("it has no visible seams: size range " + size_range(made->quality)),
-      tiling_(std::move(made)),
-      pole_count_(static_cast<int>(tiling_->poles.size())) {
-  measure(execution);
-}
-
-Map::Map(PartPointer part, StructurePointer structure, std::shared_ptr<const flat::Islands> made, std::string why,
-         Execution& execution)
-    : part_(std::move(part)), structure_(std::move(structure)), why_(std::move(why)), islands_(std::move(made)) {
-  measure(execution);
-}
-
-Map::Map(PartPointer part, StructurePointer structure, std::shared_ptr<const Mixed> made, std::string why,
-         Execution& execution)
-    : part_(std::move(part)), structure_(std::move(structure)), why_(std::move(why)), mixed_(std::move(made)) {
-  for (const SeamlessPointer& tiling : mixed_->tilings) pole_count_ += static_cast<int>(tiling->poles.size());
+      tilings_{std::move(made)} {
   measure(execution);
 }
 
 void Map::measure(Execution& execution) {
+  const bool is_of_forms = layout_ && layout_->islands == 0 && !is_tiled();
+  if (is_of_forms && structure_->kind() == MapKind::kLog) pole_count_ = static_cast<int>(structure_->poles().size());
+  for (const SeamlessPointer& tiling : tilings_) pole_count_ += static_cast<int>(tiling->poles.size());
   if (part_->has_positions()) {
     drawn_ = uv::drawn_densities(part_->surface->polygons, uv(), execution.workers());
   } else {
@@ -131,39 +122,14 @@ void Map::measure(Execution& execution) {
   const double size = map.rows() > 0 ? (map.colwise().maxCoeff() - map.colwise().minCoeff()).maxCoeff() : 0;
   if (size > flat::kScattered * std::sqrt(density() * part_->area)) return;
   uv::Marks marks{.poles = pole_count_};
-  if (tiling_) marks.cones = static_cast<int>(tiling_->cones.size());
-  if (islands_) marks.soft_seams = islands_->soft_length, marks.hard_seams = islands_->hard_length;
-  if (mixed_) {
-    marks.soft_seams = mixed_->soft_length, marks.hard_seams = mixed_->hard_length;
-    for (const SeamlessPointer& tiling : mixed_->tilings) marks.cones += static_cast<int>(tiling->cones.size());
-  }
-  if (forms_ && part_->area > 0)
-    marks.soft_seams = lengths(*structure_->triangulation(), structure_->seams(execution)) / std::sqrt(part_->area);
+  if (layout_) marks.soft_seams = layout_->soft_length, marks.hard_seams = layout_->hard_length;
+  for (const SeamlessPointer& tiling : tilings_) marks.cones += static_cast<int>(tiling->cones.size());
   cost_ = uv::cost(quality(), marks);
 }
 
-const uv::UvArray& Map::uv() const {
-  return forms_ ? forms_->uv : tiling_ ? tiling_->uv : islands_ ? islands_->uv : mixed_->uv;
-}
-
-const uv::Quality& Map::quality() const {
-  return forms_ ? forms_->quality : tiling_ ? tiling_->quality : islands_ ? islands_->quality : mixed_->quality;
-}
-
-std::vector<mesh::Pair> Map::seams(Execution& execution) const {
-  if (tiling_) return tiling_->seams;
-  if (islands_) return islands_->seams;
-  if (mixed_) return mixed_->seams;
-  std::vector<mesh::Pair> result;
-  for (const int e : structure_->seams(execution)) result.push_back(structure_->triangulation()->edges[e]);
-  return result;
-}
-
 int Map::turns() const {
-  int result = tiling_ ? tiling_->turns : 1;
-  if (mixed_) {
-    for (const SeamlessPointer& tiling : mixed_->tilings) result = std::max(result, tiling->turns);
-  }
+  int result = 1;
+  for (const SeamlessPointer& tiling : tilings_) result = std::max(result, tiling->turns);
   return result;
 }
 
@@ -177,33 +143,36 @@ std::shared_ptr<const Map> Map::because(std::string why) const {
   return result;
 }
 
-MapPointer form_map(const PartPointer& part, const StructurePointer& structure,
-                    std::optional<Eigen::VectorXcd> coefficients, double evenness, bool is_upright, std::string why,
-                    Execution& execution) {
+MapPointer form_map(const PartPointer& part, const StructurePointer& structure, double evenness, bool is_upright,
+                    std::string why, Execution& execution) {
   nested(execution, 0.0, 0.2, [&] { structure->prepare_uv(execution); });
-  FormMap made;
-  made.coefficients = coefficients
-                          ? std::move(*coefficients)
-                          : nested(execution, 0.2, 0.6, [&] { return structure->balanced_coefficients(execution); });
-  made.evenness = evenness;
-  made.uv = structure->uv(made.coefficients, execution);
-  const Complex turn = is_upright ? turn_upright(*part, *structure, made.uv) : 1;
+  Eigen::VectorXcd coefficients =
+      nested(execution, 0.2, 0.6, [&] { return structure->balanced_coefficients(execution); });
+  const mesh::Surface& surface = *structure->triangulation();
+  auto made = std::make_shared<flat::Layout>();
+  made->evenness = evenness;
+  made->uv = structure->uv(coefficients, execution);
+  const Complex turn = is_upright ? turn_upright(*part, *structure, made->uv) : 1;
   if (turn != 1.0) {
-    made.coefficients *= turn;
-    made.uv = structure->uv(made.coefficients, execution);
+    coefficients *= turn;
+    made->uv = structure->uv(coefficients, execution);
   }
-  made.quality = structure->quality(made.uv, execution);
+  made->quality = structure->quality(made->uv, execution);
   if (evenness > 0) {
-    made.uv = nested(execution, 0.6, 1.0,
-                     [&] { return evened(*structure, made.coefficients, made.uv, made.quality, evenness, execution); });
-    uv::Quality quality = structure->quality(made.uv, execution);
-    uv::set_evened_from(quality, made.quality, evenness);
-    made.quality = std::move(quality);
+    made->uv = nested(execution, 0.6, 1.0,
+                      [&] { return evened(*structure, coefficients, made->uv, made->quality, evenness, execution); });
+    uv::Quality quality = structure->quality(made->uv, execution);
+    uv::set_evened_from(quality, made->quality, evenness);
+    made->quality = std::move(quality);
   }
-  if (is_upright && structure->form_count() == 0) turn_by(made.uv, turn);
+  if (is_upright && structure->form_count() == 0) turn_by(made->uv, turn);
   if (is_upright && part->has_positions())
-    made.quality.direction = uv::direction(*structure->triangulation(), made.uv, part->up, 1, execution.workers());
-  return std::make_shared<const Map>(part, structure, std::move(made), std::move(why), execution);
+    made->quality.direction = uv::direction(surface, made->uv, part->up, 1, execution.workers());
+  const std::vector<int> seams = structure->seams(execution);
+  for (const int e : seams) made->seams.push_back(surface.edges[e]);
+  if (part->area > 0) made->soft_length = lengths(surface, seams) / std::sqrt(part->area);
+  return std::make_shared<const Map>(part, structure, std::move(made), std::move(why), execution,
+                                     std::vector<SeamlessPointer>(), std::move(coefficients));
 }
 
 }  // namespace holomorph::choice

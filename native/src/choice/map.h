@@ -13,51 +13,40 @@
 
 namespace holomorph::choice {
 
-/// A map whose pieces, cut along hard edges, lie side by side: some with whole tiles, the rest in flat islands.
-struct Mixed {
-  uv::UvArray uv;                        ///< #C x 2: one tile of the texture is the unit square
-  uv::Quality quality;                   ///< with the triangles of one piece after those of another
-  std::vector<SeamlessPointer> tilings;  ///< of the pieces that have one; their vertices are those of the part
-  std::vector<mesh::Pair> seams;         ///< vertices of the edges where the UVs jump
-  double evenness = 0;
-  double soft_length = 0, hard_length = 0;  ///< of seams, over the root of the area, as flat::Islands has them
-};
+using LayoutPointer = std::shared_ptr<const flat::Layout>;
 
-/// The map of a combination of a structure's forms.
-struct FormMap {
-  uv::UvArray uv;
-  uv::Quality quality;
-  Eigen::VectorXcd coefficients;  ///< with which the structure gives it; empty for a map that is fixed
-  double evenness = 0;
-};
-
-/// A map, of one of the four kinds.
+/// A map: a tiling; in pieces between hard edges, some of them tilings and the rest islands; in flat islands; or of a
+/// combination of forms.
 class Map {
  public:
-  Map(PartPointer part, StructurePointer structure, FormMap made, std::string why, Execution& execution);
+  /// @param tilings of the pieces that have one; their vertices are those of the part
+  /// @param coefficients with which the structure gives the map; empty for one that is fixed
+  Map(PartPointer part, StructurePointer structure, LayoutPointer made, std::string why, Execution& execution,
+      std::vector<SeamlessPointer> tilings = {}, Eigen::VectorXcd coefficients = {});
   /// "it has no visible seams" and so on
   Map(PartPointer part, StructurePointer structure, SeamlessPointer made, Execution& execution);
-  Map(PartPointer part, StructurePointer structure, std::shared_ptr<const flat::Islands> made, std::string why,
-      Execution& execution);
-  Map(PartPointer part, StructurePointer structure, std::shared_ptr<const Mixed> made, std::string why,
-      Execution& execution);
 
   const PartPointer& part() const { return part_; }
   const StructurePointer& structure() const { return structure_; }
   const std::string& why() const { return why_; }
-  /// Null for maps of another kind.
-  const std::shared_ptr<const FormMap>& forms() const { return forms_; }
-  const SeamlessPointer& tiling() const { return tiling_; }
-  const std::shared_ptr<const flat::Islands>& islands() const { return islands_; }
-  const std::shared_ptr<const Mixed>& mixed() const { return mixed_; }
-
-  const uv::UvArray& uv() const;  ///< #C x 2
-  const uv::Quality& quality() const;
-  /// Vertices of the edges where the UVs jump.
-  std::vector<mesh::Pair> seams(Execution& execution) const;
-
+  /// Null where the whole is none.
+  const SeamlessPointer& tiling() const { return layout_ ? kNone : tilings_.front(); }
+  /// The tiling, or those of pieces.
+  const std::vector<SeamlessPointer>& tilings() const { return tilings_; }
+  /// Null for a tiling.
+  const LayoutPointer& layout() const { return layout_; }
+  bool is_in_islands() const { return layout_ && layout_->islands > 0; }
+  bool is_in_pieces() const { return layout_ && is_tiled(); }
   /// Whether a texture breaks off when the UVs are moved by anything but whole tiles.
-  bool is_tiled() const { return tiling_ || mixed_; }
+  bool is_tiled() const { return !tilings_.empty(); }
+  const Eigen::VectorXcd& coefficients() const { return coefficients_; }
+
+  const uv::UvArray& uv() const { return layout_ ? layout_->uv : tilings_.front()->uv; }  ///< #C x 2
+  const uv::Quality& quality() const { return layout_ ? layout_->quality : tilings_.front()->quality; }
+  double evenness() const { return layout_ ? layout_->evenness : tilings_.front()->evenness; }
+  /// Vertices of the edges where the UVs jump.
+  const std::vector<mesh::Pair>& seams() const { return layout_ ? layout_->seams : tilings_.front()->seams; }
+
   int pole_count() const { return pole_count_; }
   /// 2, 4 or 6 where the UVs may turn by this part of a full turn across a seam; else 1.
   int turns() const;
@@ -72,15 +61,16 @@ class Map {
   std::shared_ptr<const Map> because(std::string why) const;
 
  private:
+  static inline const SeamlessPointer kNone = nullptr;
+
   void measure(Execution& execution);
 
   PartPointer part_;
   StructurePointer structure_;
   std::string why_;
-  std::shared_ptr<const FormMap> forms_;
-  SeamlessPointer tiling_;
-  std::shared_ptr<const flat::Islands> islands_;
-  std::shared_ptr<const Mixed> mixed_;
+  LayoutPointer layout_;
+  std::vector<SeamlessPointer> tilings_;
+  Eigen::VectorXcd coefficients_;
   int pole_count_ = 0;
   uv::Densities drawn_;
   double cost_ = 0;
@@ -90,14 +80,12 @@ using MapPointer = std::shared_ptr<const Map>;
 /// The size range in three digits.
 std::string size_range(const uv::Quality& quality);
 
-/// The map of a combination of a structure's forms.
-/// @param coefficients none: those of the balanced map
+/// The map of the balanced combination of a structure's forms.
 /// @param is_upright turn the map until v runs up, as far as one turn can do that: by half turns and quarters where its
 /// boundary is straight
 /// @param evenness as in uv/evening.h; jumps stay, and so do straight and round boundaries
 /// @throws SolverError, Cancelled
-MapPointer form_map(const PartPointer& part, const StructurePointer& structure,
-                    std::optional<Eigen::VectorXcd> coefficients, double evenness, bool is_upright, std::string why,
-                    Execution& execution);
+MapPointer form_map(const PartPointer& part, const StructurePointer& structure, double evenness, bool is_upright,
+                    std::string why, Execution& execution);
 
 }  // namespace holomorph::choice

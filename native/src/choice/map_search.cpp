@@ -1,5 +1,6 @@
 #include "choice/map_search.h"
 #include "base/held.h"
+#include "choice/any_structure.h"
 #include "choice/automatic_structure.h"
 
 #include <algorithm>
@@ -54,6 +55,11 @@ bool is_outline(const Part& part) {
 MapSearch::MapSearch(Request request, std::shared_ptr<Budget> budget, Execution& execution)
     : request_(std::move(request)),
       budget_(budget ? std::move(budget) : std::make_shared<Budget>(request_.part->triangle_count(), request_.effort)) {
+  if (request_.main == Main::kIslands) {
+    Untiled untiled(request_.part, nullptr, request_.evenness, request_.is_upright(), execution);
+    final_ = untiled.along(request_.cuts, execution);
+    return;
+  }
   if (!request_.structure && has_too_many_forms(*request_.part)) final_ = islands_instead(execution);
   if (!request_.structure && is_outline(*request_.part)) final_ = flat_outline(execution);
   if (final_) return;
@@ -77,23 +83,22 @@ MapPointer MapSearch::flat_outline(Execution& execution) const {
   if (request_.main != Main::kAutomatic) return nullptr;
   Untiled untiled(request_.part, nullptr, request_.evenness, request_.is_upright(), execution);
   const MapPointer flat = untiled.at_once(execution);
-  return flat && !may_be_better(flat->islands().get()) ? flat : nullptr;
+  return flat && !may_be_better(flat->layout().get()) ? flat : nullptr;
 }
 
 // The map where no other is tried.
 MapPointer MapSearch::found_at_once(Execution& execution) {
   const Request& asked = request_;
-  if (asked.main == Main::kBalanced) {  // coefficients are as they were given
+  if (asked.main == Main::kBalanced) {
     const bool is_upright = asked.is_upright() && asked.structure->form_count() == 0;
-    return form_map(asked.part, asked.structure, asked.coefficients, asked.evenness, is_upright, "it was asked for",
-                    execution);
+    return form_map(asked.part, asked.structure, asked.evenness, is_upright, "it was asked for", execution);
   }
   if (asked.main == Main::kUntiled) return held(untiled_).best("it has no tiling", execution);
   if (asked.main == Main::kSeamless) return nullptr;
   if (asked.part->area == 0)
-    return form_map(asked.part, asked.structure, {}, asked.evenness, false, "the surface has no area", execution);
+    return form_map(asked.part, asked.structure, asked.evenness, false, "the surface has no area", execution);
   flat_ = held(untiled_).at_once(execution);
-  return flat_ && !may_be_better(flat_->islands().get()) ? flat_ : nullptr;
+  return flat_ && !may_be_better(flat_->layout().get()) ? flat_ : nullptr;
 }
 
 std::vector<MapPointer> MapSearch::maps(double density, int tries, bool leads, Execution& execution) {
@@ -181,7 +186,7 @@ MapPointer MapSearch::fitted(const std::vector<MapPointer>& found, double densit
   }
   const bool is_inside = !inside.empty();
   const MapPointer made = nearest(is_inside ? inside : found, density);
-  if (made->mixed() && !is_inside) {
+  if (made->is_in_pieces() && !is_inside) {
     const MapPointer exact = in_pieces(nullptr, density, 0, Window(), execution);
     return exact ? exact : made;
   }
@@ -261,7 +266,7 @@ MapPointer MapSearch::in_pieces(const MapPointer& rival, double density, int tri
 }
 
 // Whether islands have a seam across the smooth, or squares that differ, or there are none.
-bool MapSearch::may_be_better(const flat::Islands* flat) const {
+bool MapSearch::may_be_better(const flat::Layout* flat) const {
   if (!request_.part->has_positions()) return false;
   return !flat || flat->soft_length > kMostSoft || uv::cost_of_squares(flat->quality) > kFlat;
 }

@@ -63,7 +63,7 @@ class MapSearch {
                         Execution& execution);
   MapPointer stretched_or_turned(const MapPointer& made, double density, const Window& window, Execution& execution);
   bool has_rival(const Map& made, Execution& execution);
-  bool may_be_better(const flat::Islands* flat) const;
+  bool may_be_better(const flat::Layout* flat) const;
   bool is_long() const;
   bool is_ring() const;
   MapPointer said(const MapPointer& made) const;

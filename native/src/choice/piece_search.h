@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "choice/budget.h"
-#include "choice/mixed_map.h"
 #include "choice/pieces.h"
 #include "choice/request.h"
 #include "choice/size.h"
@@ -20,7 +19,7 @@ class PieceSearch {
  public:
   /// @param structure of the part. @param flat its islands, null without any: only where these have a seam across the
   /// smooth or stretch a tiling is tried. The budget outlives this
-  PieceSearch(Request request, StructurePointer structure, std::shared_ptr<const flat::Islands> flat, Budget& budget);
+  PieceSearch(Request request, StructurePointer structure, LayoutPointer flat, Budget& budget);
 
   /// The map of least cost, if it is below that of another one, to which that of rows that turn is added. Null without.
   /// @param rival null for none
@@ -64,7 +63,7 @@ class PieceSearch {
 
   Request request_;
   StructurePointer structure_;
-  std::shared_ptr<const flat::Islands> flat_;
+  LayoutPointer flat_;
   Budget& budget_;
   std::optional<std::vector<Division>> found_, cut_;  // what was looked for already; cut_ none or one
   std::map<std::vector<int>, MapPointer> rest_;       // of pieces without tiling, by their polygons

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "choice/untiled.h"
-#include "mesh/facets.h"
 #include "mesh/hard_edges.h"
 #include "uv/appearance.h"
 
@@ -64,7 +63,7 @@ double soft_length(const Piece& piece, const std::vector<mesh::Pair>& seams) {
 }
 
 // Whether the islands have a seam across the smooth, longer than `most`, or stretch. Gives the piece what is theirs.
-bool is_minded(Piece& piece, const flat::Islands& flat, const std::vector<mesh::Pair>& seams, double most,
+bool is_minded(Piece& piece, const flat::Layout& flat, const std::vector<mesh::Pair>& seams, double most,
                Execution& execution) {
   const mesh::Surface& surface = *piece.part->surface;
   uv::UvArray& uv = piece.uv.emplace(static_cast<Eigen::Index>(piece.corner_index.size()), 2);
@@ -126,7 +125,7 @@ std::optional<std::pair<Piece, double>> cut_in_hiding(const Part& part, bool is_
   return std::pair(std::move(pieces_of(part, std::move(components), execution).front()), seen);
 }
 
-std::vector<Piece> smooth_pieces(const Part& part, const flat::Islands* flat, const std::vector<int>& names,
+std::vector<Piece> smooth_pieces(const Part& part, const flat::Layout* flat, const std::vector<int>& names,
                                  Execution& execution) {
   std::vector<mesh::Pair> seams;
   if (flat) seams = sorted_pairs(flat->seams);

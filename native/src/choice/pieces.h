@@ -29,12 +29,12 @@ struct Piece {
 std::vector<Piece> cut_apart(const Part& part, const std::vector<int>& names, Execution& execution);
 
 /// The part cut open between its tips where few see it, as a piece with the name 0; and how far the cut is seen. None
-/// where it would fall apart (mesh/hidden_cut.h).
+/// where it would fall apart (flat/pieces.h).
 std::optional<std::pair<Piece, double>> cut_in_hiding(const Part& part, bool is_upright, Execution& execution);
 
 /// The pieces with `names` that are tubes, or smooth, and across which islands have a seam or stretch, the largest
 /// first. @param flat the islands of the part; null without any
-std::vector<Piece> smooth_pieces(const Part& part, const flat::Islands* flat, const std::vector<int>& names,
+std::vector<Piece> smooth_pieces(const Part& part, const flat::Layout* flat, const std::vector<int>& names,
                                  Execution& execution);
 
 /// The part with one more polygon, at the end, in each boundary loop but the two longest; itself where there are no

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/held.h"
-#include "mesh/edge_faces.h"
 #include "mesh/make_surface.h"
+#include "mesh/surface.h"
 #include "structure/pole_structure.h"
 
 namespace holomorph::choice {

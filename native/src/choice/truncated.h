@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "choice/solved_structures.h"
+#include "choice/any_structure.h"
 
 namespace holomorph::choice {
 

@@ -5,14 +5,11 @@
 #include <sstream>
 #include <utility>
 
-#include "mesh/facets.h"
 #include "mesh/hard_edges.h"
 #include "uv/appearance.h"
 
 namespace holomorph::choice {
 namespace {
-
-using SharedIslands = std::shared_ptr<const flat::Islands>;
 
 // The work on a tiling, in millionths of about a second, for each triangle of the level on which poles are placed, and
 // of the part; how much of it is spent on islands where there is a tiling, and what is spent on them in any case.
@@ -21,21 +18,21 @@ constexpr double kBudget = 0.4, kLeastWork = 100'000;
 
 // What ask() finds; nothing where islands collapse or cannot be made: another map may be.
 template <class Ask>
-SharedIslands found_or_none(const Ask& ask) {
-  const SharedIslands found = unless_refused(ask, [](const Error&) { return SharedIslands(); });
+LayoutPointer found_or_none(const Ask& ask) {
+  const LayoutPointer found = unless_refused(ask, [](const Error&) { return LayoutPointer(); });
   return found && std::isfinite(found->cost()) ? found : nullptr;
 }
 
 // How it is flattened, in one sentence.
-std::string how(const flat::Islands& flat) {
+std::string how(const flat::Layout& flat) {
   std::ostringstream text;
   text.precision(3);
   text << "it flattens ";
   if (flat.seams.empty()) {
     text << "in one piece";
   } else {
-    text << "along its " << (flat.soft_length <= kMostSoft ? "hard edges" : "seams") << " into " << flat.count
-         << (flat.count == 1 ? " piece" : " pieces");
+    text << "along its " << (flat.soft_length <= kMostSoft ? "hard edges" : "seams") << " into " << flat.islands
+         << (flat.islands == 1 ? " piece" : " pieces");
   }
   text << ": size range " << std::sqrt(flat.quality.density_ratio);
   return text.str();
@@ -56,9 +53,9 @@ Untiled::Untiled(PartPointer part, StructurePointer structure, double evenness, 
 
 MapPointer Untiled::at_once(Execution& execution) {
   if (!may_flatten()) return nullptr;
-  SharedIslands flat = found_or_none([&] { return search_->at_once(kGood, execution); });
+  LayoutPointer flat = found_or_none([&] { return search_->at_once(kGood, execution); });
   if (flat && uv::cost_of_squares(flat->quality) > kFlat) {
-    const SharedIslands better = found_or_none([&] { return search_->best(flat->cost(), work(), execution); });
+    const LayoutPointer better = found_or_none([&] { return search_->best(flat->cost(), work(), execution); });
     flat = better ? better : flat;
   }
   return map(flat, "", execution);
@@ -72,12 +69,17 @@ MapPointer Untiled::islands(double most, std::optional<double> work, Execution& 
 
 MapPointer Untiled::instead(const std::string& why, Execution& execution) {
   if (!search_) return nullptr;
-  const SharedIslands flat = found_or_none([&] { return search_->best(kInfinity, kInfinity, execution); });
+  const LayoutPointer flat = found_or_none([&] { return search_->best(kInfinity, kInfinity, execution); });
   return flat ? map(flat, "it has " + why + "; " + how(*flat), execution) : nullptr;
 }
 
+MapPointer Untiled::along(const flat::ChosenCuts& cuts, Execution& execution) const {
+  if (!search_) throw TopologyError("islands need a surface with positions and an area");
+  return map(search_->along(cuts, execution), "", execution);
+}
+
 MapPointer Untiled::balanced(double most, const std::string& why, Execution& execution) {
-  if (!conformal_) conformal_ = choice::form_map(part_, structure_, {}, 0, is_upright_, "it was asked for", execution);
+  if (!conformal_) conformal_ = choice::form_map(part_, structure_, 0, is_upright_, "it was asked for", execution);
   double least = conformal_->cost();
   if (evenness_ > 0 && std::isfinite(least))
     least -= (1 - flat::kEvenedCost) * uv::cost_of_squares(conformal_->quality());
@@ -94,11 +96,11 @@ MapPointer Untiled::best(const std::string& why, Execution& execution) {
 
 MapPointer Untiled::one_island(const SeamlessMap& tiling, const std::string& why, Execution& execution) const {
   if (!part_->has_positions()) return nullptr;
-  auto flat = std::make_shared<flat::Islands>();
+  auto flat = std::make_shared<flat::Layout>();
   const double density = tiling.quality.median_density;
   flat->uv = tiling.uv / std::sqrt(density);
   flat->seams = tiling.seams;
-  flat->count = 1;
+  flat->islands = 1;
   const auto& points = part_->surface->polygons.vertices;
   for (const auto& [a, b] : tiling.seams) flat->soft_length += distance(points[a], points[b]);
   flat->soft_length /= std::sqrt(part_->area);
@@ -107,14 +109,14 @@ MapPointer Untiled::one_island(const SeamlessMap& tiling, const std::string& why
   return map(flat, why, execution);
 }
 
-MapPointer Untiled::map(SharedIslands flat, std::string why, Execution& execution) const {
+MapPointer Untiled::map(LayoutPointer flat, std::string why, Execution& execution) const {
   if (!flat) return nullptr;
   if (why.empty()) why = how(*flat);
   return std::make_shared<const Map>(part_, structure_, std::move(flat), std::move(why), execution);
 }
 
 MapPointer Untiled::form_map(const std::string& why, Execution& execution) const {
-  return choice::form_map(part_, structure_, {}, evenness_, is_upright_, why, execution);
+  return choice::form_map(part_, structure_, evenness_, is_upright_, why, execution);
 }
 
 bool Untiled::may_flatten() {

@@ -30,7 +30,7 @@ class Untiled {
   Untiled(PartPointer part, StructurePointer structure, double evenness, bool is_upright, Execution& execution);
 
   /// The best islands so far, if they were looked for.
-  std::shared_ptr<const flat::Islands> known() const { return search_ ? search_->known() : nullptr; }
+  LayoutPointer known() const { return search_ ? search_->known() : nullptr; }
   /// The islands that cost so little that hardly another map costs less, if there are any, or better ones.
   MapPointer at_once(Execution& execution);
   /// The islands of least cost, if it is below `most`, and they are found by so much work (flat/island_search.h).
@@ -38,6 +38,8 @@ class Untiled {
   MapPointer islands(double most, std::optional<double> work, Execution& execution);
   /// The islands, however long they take, where no other map is tried.
   MapPointer instead(const std::string& why, Execution& execution);
+  /// Those between chosen cuts. @throws TopologyError where there are none
+  MapPointer along(const flat::ChosenCuts& cuts, Execution& execution) const;
   /// The balanced map, if it costs less than `most`. It is evened only where that may bring it there.
   MapPointer balanced(double most, const std::string& why, Execution& execution);
   /// The one of least cost, however long islands take.
@@ -46,7 +48,7 @@ class Untiled {
   MapPointer one_island(const SeamlessMap& tiling, const std::string& why, Execution& execution) const;
 
  private:
-  MapPointer map(std::shared_ptr<const flat::Islands> flat, std::string why, Execution& execution) const;
+  MapPointer map(LayoutPointer flat, std::string why, Execution& execution) const;
   MapPointer form_map(const std::string& why, Execution& execution) const;
   bool may_flatten();
   double work() const;

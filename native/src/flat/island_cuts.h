@@ -5,11 +5,30 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "flat/flattening.h"
 #include "mesh/surface.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::flat {
+
+// Islands of a surface, each flattened by itself.
+
+struct Flattening {
+  uv::UvArray uv;                     ///< #C x 2, each island about 0; 0 where it is not flat
+  std::vector<double> scale_factors;  ///< #V length in the plane over that on the surface, 1 on the boundary
+  std::vector<char> is_flat;          ///< #components, whether each was mapped
+};
+
+/// Maps each component that is a disk by flat::free_boundary_map. A component that is not a disk, or
+/// for which a solver fails, is not flat.
+/// @param surface cut open along its seams: its islands are its components
+/// @throws Cancelled
+/// Cost: one factorisation for each island.
+Flattening flattened(const mesh::Surface& surface, Execution& execution);
+
+/// Returns the UVs of flat islands, #C x 2. Islands that stretch are evened, and each has the area that it has on the
+/// surface.
+/// @param evenness from 0 to 1. @throws Cancelled
+uv::UvArray evened(const mesh::Surface& surface, const Flattening& flattening, double evenness, Execution& execution);
 
 /// The polygon sides of a surface, #C: each starts at a corner, its polygon on the left.
 struct Sides {
@@ -38,8 +57,9 @@ class Cuts {
   /// Cuts these edges, too, #E. @return whether there were any
   bool add(const std::vector<char>& cuts);
 
-  /// Paths from where pieces stretch most to their borders, #E, of those that stretch lengths by a factor above 2.5.
-  std::vector<char> to_cones(const mesh::Surface& pieces, const Flattening& flat, Execution& execution) const;
+  /// Paths from where pieces stretch most to their borders, #E, of those that change lengths by a larger factor.
+  std::vector<char> to_cones(const mesh::Surface& pieces, const Flattening& flat, double most_stretch,
+                             Execution& execution) const;
 
   /// The edges between the parts of pieces that lie over themselves, #E, each of which does not.
   std::vector<char> across_overlaps(const mesh::Surface& pieces, const uv::UvArray& uv, Execution& execution) const;

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "flat/shelves.h"
+#include "flat/arrangement.h"
 #include "flat/split_overlaps.h"
 #include "mesh/hard_edges.h"
 #include "uv/appearance.h"
@@ -257,9 +257,9 @@ int pack_nets(uv::UvArray& uv, const std::vector<int>& net) {
 
 }  // namespace
 
-double Islands::cost() const { return uv::cost(quality, {soft_length, hard_length}); }
-double Islands::seam_cost() const { return uv::cost_of_marks({soft_length, hard_length}); }
-double Islands::overlap_cost() const { return uv::cost_of_overlaps(quality.overlapping_part.value_or(0)); }
+double Layout::cost() const { return uv::cost(quality, {soft_length, hard_length}); }
+double Layout::seam_cost() const { return uv::cost_of_marks({soft_length, hard_length}); }
+double Layout::overlap_cost() const { return uv::cost_of_overlaps(quality.overlapping_part.value_or(0)); }
 
 std::pair<double, double> visible_lengths(const mesh::Surface& surface, double area, const std::vector<double>& breaks,
                                           const std::vector<char>& is_seam) {
@@ -285,22 +285,24 @@ uv::UvArray Flattened::evened(double evenness, Execution& execution) const {
   return flat::evened(pieces_, flat_, evenness, execution);
 }
 
-Islands Flattened::laid_out(const uv::UvArray& flat_uv, double evenness, const Islands* conformal,
-                            Execution& execution) const {
+Layout Flattened::laid_out(const uv::UvArray& flat_uv, double evenness, const Layout* conformal, bool joins,
+                           Execution& execution) const {
   const mesh::Surface& surface = sheet_->surface;
   uv::UvArray uv = flat_uv;
   std::vector<char> is_held = turn_upright(uv);
   if (!sheet_->is_upright) std::ranges::fill(is_held, 0);
   const std::vector<Joint> joints = cuts_.joints();
   execution.stage("joints", 0, 1);
-  const std::vector<int> nets = joined(pieces_, uv, preferred(uv, joints), flat_.is_flat, is_held, execution);
+  std::vector<int> nets(pieces_.component_count);
+  std::iota(nets.begin(), nets.end(), 0);
+  if (joins) nets = joined(pieces_, uv, preferred(uv, joints), flat_.is_flat, is_held, execution);
   execution.stage("layout", 0, 1);
   std::vector<int> net = corner_pieces(pieces_);
   net.resize(surface.polygons.corner_vertices.size());
   for (int& own : net) own = nets[own];
-  Islands result;
+  Layout result;
   result.uv = uv.topRows(static_cast<Eigen::Index>(net.size()));
-  result.count = pack_nets(result.uv, net);
+  result.islands = pack_nets(result.uv, net);
   const std::vector<char> is_seam = seams(result.uv, joints);
   for (std::size_t e = 0; e < is_seam.size(); ++e) {
     if (is_seam[e]) result.seams.push_back(surface.edges[e]);

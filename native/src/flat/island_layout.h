@@ -7,22 +7,21 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "flat/flattening.h"
 #include "flat/island_cuts.h"
 #include "mesh/surface.h"
 #include "uv/quality.h"
 
 namespace holomorph::flat {
 
-/// A map in islands that lie beside each other, one unit of length on the surface a UV unit.
-struct Islands {
+/// A map as it lies in the plane. In islands that lie beside each other a unit of length on the surface is a UV unit.
+struct Layout {
   uv::UvArray uv;                 ///< #C x 2
+  uv::Quality quality;            ///< also of how far islands lie over themselves
   std::vector<mesh::Pair> seams;  ///< vertices of the edges where the UVs jump
-  int count = 0;                  ///< of the islands
   double soft_length = 0;         ///< of the seams across the smooth, over the square root of the surface's area
   double hard_length = 0;         ///< of those along hard edges that hide them, likewise
-  uv::Quality quality;            ///< also of how far islands lie over themselves
   double evenness = 0;            ///< from 0, conformal, to 1
+  int islands = 0;                ///< how many there are; 0 for a map of another kind
 
   double cost() const;
   double seam_cost() const;
@@ -36,7 +35,7 @@ std::pair<double, double> visible_lengths(const mesh::Surface& surface, double a
 /// What islands are made of.
 struct Sheet {
   mesh::Surface surface;       ///< its polygons all read in one direction
-  std::vector<double> breaks;  ///< #E, mesh/facets.h
+  std::vector<double> breaks;  ///< #E, mesh/hard_edges.h
   double area = 0;
   uv::Up up = uv::Up::kZ;
   bool is_upright = true;  ///< whether pieces are to stay so
@@ -56,7 +55,9 @@ class Flattened {
   uv::UvArray evened(double evenness, Execution& execution) const;
 
   /// Lays out the UVs by `evened`. @param conformal those for evenness 0, if it is another one
-  Islands laid_out(const uv::UvArray& flat_uv, double evenness, const Islands* conformal, Execution& execution) const;
+  /// @param joins whether pieces that fit edge to edge are joined
+  Layout laid_out(const uv::UvArray& flat_uv, double evenness, const Layout* conformal, bool joins,
+                  Execution& execution) const;
 
  private:
   Flattened(const Sheet& sheet, Cuts cuts, mesh::Surface pieces, Flattening flat)

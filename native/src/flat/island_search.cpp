@@ -4,11 +4,11 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "mesh/components.h"
 #include "mesh/cut_open.h"
-#include "mesh/facets.h"
 #include "mesh/hard_edges.h"
 #include "uv/appearance.h"
 
@@ -20,6 +20,9 @@ constexpr double kFine = 0.3;  // cost of the squares, from which on no other an
 constexpr double kMany = 1;
 // Radians of curvature, all of it counted positive, up to which a part with several loops is tried.
 constexpr double kFlatPart = 2 * std::numbers::pi;
+constexpr double kStretched = 2.5;  // factor of lengths, from which on a piece is also tried with cuts to cone points
+constexpr const char* kNotFlat = "no seams cut it open: mark some, or let hard edges be cut";
+constexpr int kMostCones = 32;          // cuts of each piece to cone points where these are asked for
 constexpr int kCones = 8, kRounds = 4;  // at most: cuts of each piece to cone points in a round, and rounds
 
 constexpr double kLeastSeams = 0.8;  // of the seams remains at least: some pieces fit edge to edge
@@ -32,7 +35,7 @@ constexpr double kAlike = 1.1;                    // times a bound: islands are 
 constexpr double kFlattening = 8, kEvening = 15;  // work for each triangle
 
 // What is minded of the squares.
-double squares_of(const Islands& islands) { return uv::cost_of_squares(islands.quality) - islands.overlap_cost(); }
+double squares_of(const Layout& islands) { return uv::cost_of_squares(islands.quality) - islands.overlap_cost(); }
 
 double triangle_count(const Sheet& sheet) { return static_cast<double>(sheet.surface.triangles.size()); }
 
@@ -41,8 +44,8 @@ double triangle_count(const Sheet& sheet) { return static_cast<double>(sheet.sur
 // A layout that may be worth evening.
 struct IslandSearch::Candidate {
   std::shared_ptr<const Flattened> flattened;
-  Islands conformal;  // as they are laid out
-  int rounds;         // of further cuts that may follow
+  Layout conformal;  // as they are laid out
+  int rounds;        // of further cuts that may follow
 };
 
 IslandSearch::IslandSearch(const mesh::Surface& surface, const IslandOptions& options, Execution& execution)
@@ -56,7 +59,7 @@ IslandSearch::IslandSearch(const mesh::Surface& surface, const IslandOptions& op
   sheet_.is_upright = options.is_upright;
 }
 
-std::shared_ptr<const Islands> IslandSearch::best(double most, double work, Execution& execution) {
+std::shared_ptr<const Layout> IslandSearch::best(double most, double work, Execution& execution) {
   const bool is_settled = known_ && asked_.work == kInfinity && known_->cost() < asked_.most;
   if (!is_settled && (most > kAlike * asked_.most || work > kAlike * asked_.work)) {
     asked_ = {most, work};
@@ -65,22 +68,22 @@ std::shared_ptr<const Islands> IslandSearch::best(double most, double work, Exec
   return known_ && known_->cost() < most ? known_ : nullptr;
 }
 
-std::shared_ptr<const Islands> IslandSearch::at_once(double most, Execution& execution) {
+std::shared_ptr<const Layout> IslandSearch::at_once(double most, Execution& execution) {
   known_ = search(most, {.hopeless = kHopeless * most, .is_quick = true}, execution);
   return known_;
 }
 
-std::shared_ptr<const Islands> IslandSearch::search(double most, Run run, Execution& execution) const {
+std::shared_ptr<const Layout> IslandSearch::search(double most, Run run, Execution& execution) const {
   execution.part(0, 0);  // how long it takes is not known
   const Execution::Within within(execution);
-  std::optional<Islands> found;
+  std::optional<Layout> found;
   for (const double degrees : kHardAngles) {
     if (!is_tried(degrees, found || degrees > kSmoothAngle)) continue;
     const Cuts cuts(sheet_.surface, hard(degrees), execution);
     if (auto made = along(cuts, found ? cost(*found, run) : most, run, execution)) found = std::move(made);
     if (found && uv::cost_of_squares(found->quality) <= kFine) break;
   }
-  return found ? std::make_shared<const Islands>(as_given(*std::move(found), execution)) : nullptr;
+  return found ? std::make_shared<const Layout>(as_given(*std::move(found), execution)) : nullptr;
 }
 
 // Where no edge is hard a cut would be one through the smooth; but a disk, or what has little curvature, may be flat.
@@ -105,10 +108,43 @@ std::vector<char> IslandSearch::hard(double degrees) const {
   return result;
 }
 
+std::shared_ptr<const Layout> IslandSearch::along(const ChosenCuts& chosen, Execution& execution) const {
+  execution.part(0, 0);  // how long it takes is not known
+  const Execution::Within within(execution);
+  const mesh::Surface& surface = sheet_.surface;
+  std::vector<char> is_cut(surface.edges.size(), 0);
+  if (chosen.hard_degrees > 0) is_cut = hard(chosen.hard_degrees);
+  const std::span polygon_edges(surface.edges.data(), surface.polygon_edge_count);
+  for (const auto& [a, b] : chosen.seams) {
+    const int edge = mesh::edge_between(polygon_edges, std::min(a, b), std::max(a, b));
+    if (edge >= 0) is_cut[edge] = 1;
+  }
+  Cuts cuts(surface, std::move(is_cut), execution);
+  std::optional<Flattened> made = Flattened::of(sheet_, cuts, execution);
+  const auto again = [&](const std::vector<char>& more) {
+    if (!made || !cuts.add(more)) return false;
+    made = Flattened::of(sheet_, cuts, execution);
+    return true;
+  };
+  for (int count = 0; chosen.most_stretch > 0 && count < kMostCones && made; ++count) {
+    if (!again(cuts.to_cones(made->pieces(), made->flat(), chosen.most_stretch, execution))) break;
+  }
+  uv::UvArray uv;
+  for (int round = 0; made; ++round) {
+    uv = made->evened(options_.evenness, execution);
+    if (round == kRounds || !again(cuts.across_overlaps(made->pieces(), uv, execution))) break;
+  }
+  if (!made) throw TopologyError(kNotFlat);
+  const bool is_evened = options_.evenness > 0;
+  Layout result = made->laid_out(is_evened ? made->evened(0, execution) : uv, 0, nullptr, false, execution);
+  if (is_evened) result = made->laid_out(uv, options_.evenness, &result, false, execution);
+  return std::make_shared<const Layout>(as_given(std::move(result), execution));
+}
+
 // The best islands from these cuts on that cost less than `most`.
-std::optional<Islands> IslandSearch::along(const Cuts& cuts, double most, Run& run, Execution& execution) const {
+std::optional<Layout> IslandSearch::along(const Cuts& cuts, double most, Run& run, Execution& execution) const {
   std::vector<Candidate> left = candidates(cuts, most, kRounds, run, execution);
-  std::optional<Islands> found;
+  std::optional<Layout> found;
   for (int round = 0; round < kRounds && !left.empty(); ++round) {
     const auto one = std::ranges::min_element(left, [&](const Candidate& a, const Candidate& b) {
       return guess(a.conformal, run) < guess(b.conformal, run);
@@ -119,8 +155,8 @@ std::optional<Islands> IslandSearch::along(const Cuts& cuts, double most, Run& r
     run.left -= kEvening * triangle_count(sheet_);
     const double evenness = squares_of(candidate.conformal) <= kEven ? 0 : options_.evenness;
     const uv::UvArray uv = candidate.flattened->evened(evenness, execution);
-    Islands made = evenness == 0 ? candidate.conformal
-                                 : candidate.flattened->laid_out(uv, evenness, &candidate.conformal, execution);
+    Layout made = evenness == 0 ? candidate.conformal
+                                : candidate.flattened->laid_out(uv, evenness, &candidate.conformal, true, execution);
     made.evenness = options_.evenness;
     const bool overlaps = made.overlap_cost() > 0;
     if (cost(made, run) < most) {
@@ -143,7 +179,7 @@ std::vector<IslandSearch::Candidate> IslandSearch::candidates(Cuts cuts, double 
   for (int left = rounds - 1; left >= 0; --left) {
     auto made = flattened(cuts, most, run, execution);
     if (!made) break;
-    Islands conformal = made->laid_out(made->evened(0, execution), 0, nullptr, execution);
+    Layout conformal = made->laid_out(made->evened(0, execution), 0, nullptr, true, execution);
     result.push_back({std::make_shared<const Flattened>(*std::move(made)), std::move(conformal), left});
     if (guess(result.back().conformal, run) >= run.hopeless ||
         !cut_to_cones(cuts, *result.back().flattened, most, run, execution))
@@ -166,7 +202,7 @@ bool IslandSearch::cut_to_cones(Cuts& cuts, const Flattened& first, double most,
   std::optional<Flattened> made;
   const Flattened* now = &first;
   int count = 0;
-  while (now && count < kCones && cuts.add(cuts.to_cones(now->pieces(), now->flat(), execution))) {
+  while (now && count < kCones && cuts.add(cuts.to_cones(now->pieces(), now->flat(), kStretched, execution))) {
     made = flattened(cuts, most, run, execution);
     now = made ? &*made : nullptr;
     ++count;
@@ -174,14 +210,14 @@ bool IslandSearch::cut_to_cones(Cuts& cuts, const Flattened& first, double most,
   return count > 0;
 }
 
-double IslandSearch::cost(const Islands& islands, const Run& run) const {
+double IslandSearch::cost(const Layout& islands, const Run& run) const {
   if (!run.is_quick) return islands.cost();
   const auto& direction = islands.quality.direction;
   return islands.cost() - uv::kHardSeam * islands.hard_length - (direction ? uv::cost_of_direction(*direction) : 0);
 }
 
 // About what it costs when squares are evened, and what overlaps is cut apart.
-double IslandSearch::guess(const Islands& islands, const Run& run) const {
+double IslandSearch::guess(const Layout& islands, const Run& run) const {
   const double squares = squares_of(islands);
   if (!std::isfinite(squares)) return kInfinity;
   const double left = options_.evenness > 0 ? kEvenedCost : 1;
@@ -189,7 +225,7 @@ double IslandSearch::guess(const Islands& islands, const Run& run) const {
 }
 
 // With corners as they were given, where polygons were turned round.
-Islands IslandSearch::as_given(Islands found, Execution& execution) const {
+Layout IslandSearch::as_given(Layout found, Execution& execution) const {
   if (order_.empty()) return found;
   uv::UvArray uv(found.uv.rows(), 2);
   for (std::size_t c = 0; c < order_.size(); ++c) uv.row(order_[c]) = found.uv.row(static_cast<Eigen::Index>(c));
@@ -202,8 +238,8 @@ Islands IslandSearch::as_given(Islands found, Execution& execution) const {
   return found;
 }
 
-std::shared_ptr<const Islands> island_map(const mesh::Surface& surface, const IslandOptions& options,
-                                          Execution& execution) {
+std::shared_ptr<const Layout> island_map(const mesh::Surface& surface, const IslandOptions& options,
+                                         Execution& execution) {
   IslandSearch search(surface, options, execution);
   return search.best(IslandSearch::kInfinity, IslandSearch::kInfinity, execution);
 }

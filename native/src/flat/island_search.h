@@ -26,6 +26,15 @@ struct IslandOptions {
   bool is_upright = true;  ///< whether pieces are to stay so
 };
 
+/// Where islands are cut if that is chosen.
+struct ChosenCuts {
+  std::vector<mesh::Pair> seams;  ///< vertices of edges; other pairs do not count
+  double hard_degrees = 0;        ///< edges that break off by more are cut, too; 0: none
+  double most_stretch = 0;        ///< factor of lengths, beyond which an island is cut open to cone points; 0: nowhere
+
+  bool operator==(const ChosenCuts&) const = default;
+};
+
 /// The islands of a surface, looked for as far as they are worth it: along hard edges, then also to cone points and
 /// between what overlaps, for one angle of hard edges after the other. All is first laid out conformal, which is quick.
 /// Only what may be the best is evened.
@@ -37,15 +46,19 @@ class IslandSearch {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
   /// The best that was found.
-  const std::shared_ptr<const Islands>& known() const { return known_; }
+  const std::shared_ptr<const Layout>& known() const { return known_; }
 
   /// The islands of least cost, if it is below `most`, and they are found by so much work. What was found for other
   /// bounds is taken where it does. @param work in millionths of about a second of one processor. @throws Cancelled
-  std::shared_ptr<const Islands> best(double most, double work, Execution& execution);
+  std::shared_ptr<const Layout> best(double most, double work, Execution& execution);
 
   /// Those of least cost but for hard seams and direction, if it is below `most`. Quick: what is hopeless is not cut to
   /// cone points. @throws Cancelled
-  std::shared_ptr<const Islands> at_once(double most, Execution& execution);
+  std::shared_ptr<const Layout> at_once(double most, Execution& execution);
+
+  /// Those between chosen cuts, however they look: each lies for itself, none over itself. @throws TopologyError where
+  /// a piece has no flat map; Cancelled
+  std::shared_ptr<const Layout> along(const ChosenCuts& chosen, Execution& execution) const;
 
  private:
   struct Bounds {
@@ -59,22 +72,22 @@ class IslandSearch {
   };
   struct Candidate;
 
-  std::shared_ptr<const Islands> search(double most, Run run, Execution& execution) const;
+  std::shared_ptr<const Layout> search(double most, Run run, Execution& execution) const;
   bool is_tried(double degrees, bool is_wanted) const;
   std::vector<char> hard(double degrees) const;
-  std::optional<Islands> along(const Cuts& cuts, double most, Run& run, Execution& execution) const;
+  std::optional<Layout> along(const Cuts& cuts, double most, Run& run, Execution& execution) const;
   std::vector<Candidate> candidates(Cuts cuts, double most, int rounds, Run& run, Execution& execution) const;
   std::optional<Flattened> flattened(const Cuts& cuts, double most, Run& run, Execution& execution) const;
   bool cut_to_cones(Cuts& cuts, const Flattened& flattened, double most, Run& run, Execution& execution) const;
-  double cost(const Islands& islands, const Run& run) const;
-  double guess(const Islands& islands, const Run& run) const;
-  Islands as_given(Islands found, Execution& execution) const;
+  double cost(const Layout& islands, const Run& run) const;
+  double guess(const Layout& islands, const Run& run) const;
+  Layout as_given(Layout found, Execution& execution) const;
 
   const mesh::Surface& given_;
   IslandOptions options_;
   std::vector<int> order_;  // #C of the sheet: the corner of the surface as given; empty where that is its own
   Sheet sheet_;
-  std::shared_ptr<const Islands> known_;
+  std::shared_ptr<const Layout> known_;
   Bounds asked_;  // for which they were looked for
 };
 
@@ -87,7 +100,7 @@ class IslandSearch {
 /// Pieces are turned upright, and those that fit edge to edge are joined: first those that stay upright, longer edges
 /// first. Source: Sawhney and Crane 2017, section 4, for each piece; cuts and joints are ours, docs/choice.md.
 /// @throws Cancelled
-std::shared_ptr<const Islands> island_map(const mesh::Surface& surface, const IslandOptions& options,
-                                          Execution& execution);
+std::shared_ptr<const Layout> island_map(const mesh::Surface& surface, const IslandOptions& options,
+                                         Execution& execution);
 
 }  // namespace holomorph::flat

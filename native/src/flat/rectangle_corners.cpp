@@ -7,7 +7,7 @@
 
 #include "base/errors.h"
 #include "linear/dense.h"
-#include "mesh/polygons.h"
+#include "mesh/surface.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::flat {

@@ -11,7 +11,7 @@
 #include "base/execution.h"
 #include "forms/closed_forms.h"
 #include "mesh/half_edges.h"
-#include "mesh/intrinsic_triangulation.h"
+#include "mesh/intrinsic_surface.h"
 
 namespace holomorph::forms {
 

@@ -6,7 +6,7 @@
 
 #include "mesh/intrinsic_surface.h"
 #include "mesh/make_surface.h"
-#include "mesh/polygons.h"
+#include "mesh/surface.h"
 
 namespace holomorph::mesh {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "mesh/input_filter.h"
 #include "mesh/make_surface.h"
-#include "mesh/polygon_checks.h"
 #include "mesh/polygon_edges.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/welding.h"

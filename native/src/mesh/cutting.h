@@ -6,7 +6,6 @@
 #include "base/execution.h"
 #include "mesh/corner_labels.h"
 #include "mesh/input_filter.h"
-#include "mesh/polygons.h"
 #include "mesh/stitching.h"
 #include "mesh/surface.h"
 

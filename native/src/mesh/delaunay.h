@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "mesh/intrinsic_triangulation.h"
+#include "mesh/intrinsic_surface.h"
 
 namespace holomorph::mesh {
 

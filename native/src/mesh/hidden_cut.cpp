@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "mesh/ambient_occlusion.h"
-#include "mesh/border_paths.h"
+#include "mesh/cut_open.h"
+#include "mesh/triangle_tree.h"
 
 namespace holomorph::mesh {
 namespace {

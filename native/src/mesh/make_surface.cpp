@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/chunks.h"
+#include "mesh/input_filter.h"
 #include "mesh/orientation.h"
-#include "mesh/polygon_checks.h"
 #include "mesh/polygon_edges.h"
 #include "mesh/triangle_geometry.h"
 

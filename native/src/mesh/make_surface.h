@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/execution.h"
-#include "mesh/polygons.h"
 #include "mesh/surface.h"
 
 namespace holomorph::mesh {

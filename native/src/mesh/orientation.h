@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "mesh/polygons.h"
 #include "mesh/surface.h"
 
 namespace holomorph::mesh {

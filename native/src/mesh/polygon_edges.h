@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/workers.h"
-#include "mesh/polygons.h"
 #include "mesh/surface.h"
 
 namespace holomorph::mesh {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "mesh/edge_faces.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 

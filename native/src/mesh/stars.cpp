@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/errors.h"
-#include "mesh/polygons.h"
+#include "mesh/surface.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesh/corner_labels.h"
-#include "mesh/polygons.h"
+#include "mesh/surface.h"
 #include "mesh/union_find.h"
 
 namespace holomorph::mesh {

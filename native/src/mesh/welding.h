@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "mesh/corner_labels.h"
-#include "mesh/polygons.h"
 #include "mesh/stitching.h"
 #include "mesh/surface.h"
 

@@ -2,7 +2,8 @@
 
 #include <numeric>
 
-#include "progressive/checks.h"
+#include "progressive/progressive_mesh.h"
+#include "progressive/refinement.h"
 
 namespace holomorph::openmesh {
 namespace {

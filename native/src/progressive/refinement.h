@@ -1,9 +1,10 @@
 // Replays splits: levels of a progressive mesh.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
-#include "progressive/corner_table.h"
+#include "progressive/edge_collapse.h"
 #include "progressive/progressive_mesh.h"
 
 namespace holomorph::progressive {
@@ -51,5 +52,15 @@ mesh::Polygons level(const ProgressiveMesh& mesh, int splits);
 
 /// Returns the original polygons, bit for bit, rebuilt from the base by all the splits.
 mesh::Polygons restored(const ProgressiveMesh& mesh);
+
+// The checks of progressive meshes that come from elsewhere: arrays of a file, records.
+
+/// Makes the base from its triangles and the first positions. @throws InvalidMesh if it is not a valid mesh, has
+/// isolated vertices, or is not oriented consistently
+void set_base(ProgressiveMesh& mesh, const std::vector<Triple>& triangles, std::size_t vertex_count);
+
+/// Checks counts, permutations, corners and every split. If it returns, the levels and the original are valid meshes.
+/// @throws InvalidMesh naming what is wrong
+void check(const ProgressiveMesh& mesh);
 
 }  // namespace holomorph::progressive

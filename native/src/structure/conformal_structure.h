@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/execution.h"
-#include "structure/options.h"
+#include "structure/solver_report.h"
 #include "structure/structure.h"
 
 namespace holomorph::structure {

@@ -3,7 +3,7 @@
 
 #include "base/execution.h"
 #include "forms/third_kind.h"
-#include "structure/options.h"
+#include "structure/solver_report.h"
 #include "structure/structure.h"
 
 namespace holomorph::structure {

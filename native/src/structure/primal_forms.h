@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "base/execution.h"
-#include "structure/options.h"
+#include "structure/solver_report.h"
 #include "structure/structure.h"
 
 namespace holomorph::structure {
@@ -56,7 +56,8 @@ struct BalancedMap {
 };
 
 /// Computes the conformal structure, balanced coefficients and UVs of any connected surface. A sphere or a disk gets
-/// the poles that pole_structure takes by itself, and its log map; flat/disk_map.h maps a disk to the round one.
+/// the poles that pole_structure takes by itself, and its log map; flat/dirichlet_problem.h maps a disk to the round
+/// one.
 /// @pre connected, no isolated vertices (mesh::component makes it so)
 /// @throws TopologyError for a sphere or a disk too small for its poles; SolverError; Cancelled
 BalancedMap balanced_map(std::shared_ptr<const mesh::Surface> surface, const Options& options, Execution& execution);

@@ -1,6 +1,7 @@
 // The conformal structure of a surface: harmonic forms, differentials made of them, and the conformal invariants.
 #pragma once
 
+#include <complex>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,12 +10,41 @@
 #include <vector>
 
 #include "base/execution.h"
+#include "mesh/half_edges.h"
 #include "structure/certified_forms.h"
 #include "structure/harmonic_solver.h"
-#include "structure/pole_choice.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::structure {
+
+// Which vertices become poles, with which residues.
+
+/// theta has the residue residues[i] / (2 pi i) at vertices[i]: UV changes by residues[i] around it, counter-clockwise.
+struct Poles {
+  std::vector<int> vertices;
+  std::vector<std::complex<double>> residues;
+  std::vector<int> labels;  ///< #V what a vertex is called in messages; empty: its index
+};
+
+/// Finds two vertices far apart. Takes the vertex farthest from vertex 0 along the edges, then the one farthest from
+/// that, and goes on as long as the distance grows. Their stars are apart; ties go to the lower index.
+/// @throws TopologyError if no two stars are apart
+std::vector<int> far_apart(const mesh::Surface& surface, const mesh::HalfEdges& half_edges);
+
+/// Finds the vertex farthest from the boundary, along edges, among those whose star does not touch the boundary.
+/// @throws TopologyError if there is none
+int deepest_vertex(const mesh::Surface& surface, const mesh::HalfEdges& half_edges);
+
+/// Returns the default residues: 1 and -1 for two poles of a closed surface. For more poles, the one with the largest
+/// sum of distances to the others takes minus the number of the others, which have 1. With a boundary all have 1.
+/// @throws Cancelled
+/// Cost: for more than two poles of a closed surface, a search over the whole surface from each.
+std::vector<std::complex<double>> default_residues(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
+                                                   const std::vector<int>& vertices, bool closed, Execution& execution);
+
+/// @throws TopologyError for vertices repeated or out of range, and for another number of residues than poles. A
+/// residue must be finite and not 0. A closed surface needs two poles at least, and residues that sum to 0
+void check_poles(const Poles& poles, int vertex_count, bool closed);
 
 /// Solves for the harmonic forms of the topology's classes on the discretisation of `solver`, keeps or streams them as
 /// its plan says, and measures them.

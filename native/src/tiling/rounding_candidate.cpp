@@ -128,7 +128,7 @@ void follow_with_boundary(const Placement& placement, const RoundingProblem& pro
   c.rounding.y.head(c.X.size()) = c.X;
   const Index defects = problem.defects.cols();
   const MatrixXd& star = placement.basis->structure().holomorphic().star.star;
-  // t = Im(n + i m) - C#^T Re X (rounding_problem.h).
+  // t = Im(n + i m) - C#^T Re X (tiling.cpp).
   c.rounding.y.tail(defects) -= (star.transpose() * change.real()).head(defects);
 }
 

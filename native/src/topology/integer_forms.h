@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/intrinsic_triangulation.h"
+#include "mesh/intrinsic_surface.h"
 
 namespace holomorph::topology {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/page_allocator.h"
-#include "mesh/polygons.h"
+#include "mesh/surface.h"
 #include "uv/direction.h"
 #include "uv/uv_map.h"
 

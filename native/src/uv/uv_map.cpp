@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "base/chunks.h"
-#include "mesh/polygons.h"
+#include "mesh/surface.h"
 
 namespace holomorph::uv {
 namespace {

@@ -147,7 +147,7 @@ def test_a_part_without_area_is_named_by_its_own_face():
 
 def test_the_islands_of_a_cube_are_those_without_slivers():
     made = island_map(surface_of(families.with_slivers(families.cube(), 6, seed=1)))
-    assert (made.count, made.quality.flipped_part) == (island_map(surface_of(families.cube())).count, 0)
+    assert (made.islands, made.quality.flipped_part) == (island_map(surface_of(families.cube())).islands, 0)
 
 
 # ---- two vertices at one place: edges without length -----------------------------------------------------------------
@@ -181,4 +181,4 @@ def test_paths_go_on_between_two_vertices_at_one_place(seed):
 def test_a_flat_ring_stays_one_island_without_a_seam():
     for seed in range(49, 52):
         made = island_map(surface_of(with_doubled_vertices(BOUNDED["square minus square"], seed)))
-        assert (made.count, len(made.seams)) == (1, 0)
+        assert (made.islands, len(made.seams)) == (1, 0)

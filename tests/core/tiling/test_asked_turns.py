@@ -101,7 +101,7 @@ def test_maps_in_pieces_have_the_cones_of_their_tilings(turns):
     corners = np.angle((np.roll(at, 1, axis=1) - at) / (np.roll(at, -1, axis=1) - at))
     around = np.bincount(surface.triangles.ravel(), corners.ravel()) / (2 * np.pi)
     assert np.allclose(around[made.cones], made.cone_angles, atol=1e-6)
-    seams = [tiling.seams for tiling in made.mixed.tilings if tiling.turns != 1]
+    seams = [tiling.seams for tiling in made.tilings if tiling.turns != 1]
     assert len(np.concatenate(seams)) == len(made.jumps)
     count = len(surface.vertices)
     assert np.isin(edge_keys(np.concatenate(seams), count), edge_keys(made.seams, count)).all()
@@ -110,7 +110,7 @@ def test_maps_in_pieces_have_the_cones_of_their_tilings(turns):
 
 def test_the_cones_of_a_map_in_pieces_cost():
     made = automatic_map(dome(), turns=4)
-    without = cost(made.quality, 0, made.mixed.soft_length, made.mixed.hard_length)
+    without = cost(made.quality, 0, made.soft_length, made.hard_length)
     assert made.cost == pytest.approx(without + CONE * len(made.cones))
 
 
@@ -184,7 +184,7 @@ def test_marked_edges_of_pieces():
     level = np.unique(np.round(heights[heights > 0.4], 9))[0]
     ring = edges[(np.abs(heights - level) < 1e-6).all(axis=1)]
     made = automatic_map(surface, turns=4, lines="free", marked=ring)
-    assert made.kind == "mixed" and "free" in [tiling.lines for tiling in made.mixed.tilings]
+    assert made.kind == "mixed" and "free" in [tiling.lines for tiling in made.tilings]
     assert run_along(surface, made.uv, ring).all()
 
 

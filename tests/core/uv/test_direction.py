@@ -106,7 +106,7 @@ def test_the_balanced_map_is_turned_upright():
     ring = surface_of(families.torus(24, 12))
     for each in (surface, lying, ring):
         structure = automatic_structure(each)
-        asked = {"coefficients": None, "evenness": 0.0, "is_upright": True, "why": "", "threads": 0, "progress": None}
+        asked = {"evenness": 0.0, "is_upright": True, "why": "", "threads": 0, "progress": None}
         made = Map.of_core(_native.form_map(structure._core, **asked), each, structure)
         np.testing.assert_allclose(np.abs(made.coefficients), np.abs(structure.balanced_coefficients()))
         assert each is ring or made.quality.direction.upright_part > 0.99

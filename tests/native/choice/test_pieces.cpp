@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 
+#include "choice/any_structure.h"
 #include "choice/automatic_structure.h"
 #include "choice/budget.h"
 #include "choice/tiling_search.h"

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "choice/any_structure.h"
 #include "choice/automatic_structure.h"
 #include "choice/turned_parts.h"
 

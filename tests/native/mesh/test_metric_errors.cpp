@@ -10,7 +10,6 @@
 #include <random>
 
 #include "mesh/intrinsic_surface.h"
-#include "mesh/intrinsic_triangulation.h"
 
 namespace holomorph::mesh {
 namespace {

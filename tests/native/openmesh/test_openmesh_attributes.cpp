@@ -1,4 +1,4 @@
-#include "openmesh/attributes.h"
+#include "openmesh/surface_of_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "open_meshes.h"
-#include "openmesh/attributes.h"
 #include "openmesh/surface_of_mesh.h"
 
 namespace holomorph::openmesh {

@@ -7,15 +7,15 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "mesh/ambient_occlusion.h"
 #include "mesh/make_surface.h"
 #include "mesh/surface_walk.h"
+#include "mesh/triangle_tree.h"
 #include "structure/pole_structure.h"
-#include "tiling/greens/greens_functions.h"
+#include "tiling/greens/pole_basis.h"
 #include "tiling/inversion/abel_jacobi.h"
 #include "tiling/maps/assemble.h"
-#include "tiling/poles/candidate_scores.h"
 #include "tiling/poles/meromorphic_form.h"
+#include "tiling/poles/search_steps.h"
 #include "tiling/rounding/rounding.h"
 
 namespace holomorph::tiling {

@@ -1,5 +1,5 @@
 // The energy of one triangle: its derivatives by differences, and what it is where shear or size alone is there.
-#include "uv/triangle_energy.h"
+#include "uv/strain_energy.h"
 
 #include <gtest/gtest.h>
 

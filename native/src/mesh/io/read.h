@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "mesh/polygons.h"
+#include "mesh/surface.h"
 
 namespace holomorph::mesh {
 
@@ -11,7 +11,7 @@ namespace holomorph::mesh {
 /// OBJ: `v` and `f` lines, negative indices, continued lines; other lines are skipped.
 /// OFF: text, with normals, colours or texture coordinates skipped; 4D, nD and binary OFF are refused.
 /// PLY: text and binary of either byte order; elements and properties that are not polygons or positions are skipped.
-/// STL: text and binary; corners are welded (weld.h).
+/// STL: text and binary; corners are welded (read_stl.h).
 /// Accepts indices beyond the vertices, coordinates that are not finite and faces with fewer than 3 corners: the
 /// validation of the mesh names these.
 /// @throws InvalidMesh if the file cannot be read or is malformed; the sentence names file and line, byte or element.

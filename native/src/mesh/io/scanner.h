@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "mesh/polygons.h"
+#include "mesh/surface.h"
 
 namespace holomorph::mesh {
 

@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "solver/laplace_solver.h"
-#include "solver/multigrid/block_loops.h"
 #include "solver/multigrid/cycle.h"
 
 namespace holomorph::solver {

@@ -11,7 +11,6 @@
 
 #include "solver/laplace_solver.h"
 #include "solver/multigrid/coarsening.h"
-#include "solver/multigrid/sparse_rows.h"
 
 namespace holomorph::solver {
 

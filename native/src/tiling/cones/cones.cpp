@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "mesh/ambient_occlusion.h"
+#include "mesh/triangle_tree.h"
 #include "tiling/cones/cone_places.h"
 #include "tiling/cones/scale_form.h"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "tiling/cones/level_field.h"
 #include "tiling/cones/net.h"
+#include "tiling/cones/scale_form.h"
 
 namespace holomorph::tiling {
 

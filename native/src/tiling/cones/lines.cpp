@@ -6,7 +6,7 @@
 
 #include "base/errors.h"
 #include "solver/direct/sparse_cholesky.h"
-#include "tiling/cones/level_field.h"
+#include "tiling/cones/scale_form.h"
 
 namespace holomorph::tiling {
 namespace {

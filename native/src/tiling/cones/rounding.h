@@ -7,7 +7,7 @@
 
 #include "base/execution.h"
 #include "solver/direct/sparse_cholesky.h"
-#include "tiling/cones/level_field.h"
+#include "tiling/cones/scale_form.h"
 #include "tiling/cones/turned_space.h"
 
 namespace holomorph::tiling {

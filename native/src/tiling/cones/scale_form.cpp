@@ -1,5 +1,6 @@
 #include "tiling/cones/scale_form.h"
 
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,12 +12,188 @@ using Eigen::VectorXd;
 
 namespace {
 
+using Point = std::array<double, 3>;
+
+constexpr double kScale = 40;               // of the weight, relative to the lowest modes of the field
+constexpr double kLeast = 0.1, kMost = 10;  // weights of edges between the limits, for their inverses
+constexpr double kHeld = 1e6;               // weight of the direction at a line: it does not give way
+constexpr double kCancels = 0.3;            // of a side's length: two lines of a triangle that are no k-th turn apart
+constexpr double kUpright = 0.7;            // cosine
+constexpr int kPulls = 8;                   // steps, each with the same matrix
+
+Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// The field at the triangles beside lines, 0 at others: of two lines that disagree the longer one counts.
+std::vector<Complex> beside_lines(const Net& net, const std::vector<Point>& points, int k, const Along& along) {
+  std::vector<int> sides;
+  for (int side = 0; side < net.side_count(); ++side) {
+    if (net.is_line[side] && net.area[side / 3] > 0) sides.push_back(side);
+  }
+  const auto length = [&](int side) { return std::abs(net.along[side]); };
+  std::stable_sort(sides.begin(), sides.end(), [&](int a, int b) { return length(a) < length(b); });
+  std::vector<Complex> field(net.triangle_count(), 0.0);
+  for (const int side : sides) {
+    Complex own = std::polar(1.0, k * std::arg(net.along[side]));
+    if (k == 2) {  // the line is one along u, or one along v
+      const double upwards = std::abs(dot(difference(points[net.head[side]], points[net.tail[side]]), along.vector));
+      if ((upwards > kUpright * length(side)) != along.is_of_u) own = -own;
+    }
+    const Complex sum = field[side / 3] + own * length(side);
+    field[side / 3] = std::abs(sum) > kCancels * length(side) ? sum : own * length(side);
+  }
+  for (Complex& z : field) {
+    if (z != 0.0) z /= std::abs(z);
+  }
+  return field;
+}
+
+// The angle, less the nearest multiple of a k-th turn.
+double within_turn(double angle, int k) {
+  const double unit = 2 * std::numbers::pi / k;
+  return angle - unit * std::round(angle / unit);
+}
+
 constexpr double kRegular = 1e-9;  // of the mean diagonal, added to a Laplacian that has constants in its kernel
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr std::size_t kSolvedAtOnce = 64;  // candidates
 
 }  // namespace
+
+Level level_directions(const Net& net, const std::vector<Point>& points, const Along& along) {
+  const Point& up = along.vector;
+  Level result{std::vector<Complex>(net.triangle_count(), 1.0), std::vector<double>(net.triangle_count(), 0.0)};
+  for (int t = 0; t < net.triangle_count(); ++t) {
+    if (!(net.area[t] > 0)) continue;
+    // up . x and up . y by the two sides from corner 0, of which the first is along x.
+    const Point first = difference(points[net.head[3 * t]], points[net.tail[3 * t]]);
+    const Point last = difference(points[net.tail[3 * t + 2]], points[net.tail[3 * t]]);
+    const Complex apex = -net.along[3 * t + 2];
+    const double x = dot(first, up) / net.along[3 * t].real();
+    const double y = (dot(last, up) - apex.real() * x) / apex.imag();
+    const Complex upwards(x, y);
+    result.steepness[t] = std::min(std::norm(upwards), 1.0);
+    if (std::abs(upwards) > 1e-9)
+      result.direction[t] = (along.is_of_u ? Complex(1) : Complex(0, -1)) * upwards / std::abs(upwards);
+  }
+  return result;
+}
+
+double dual_weight(const Net& net, int side) { return 1 / std::clamp(net.weight[side], kLeast, kMost); }
+
+std::vector<Complex> level_field(const Net& net, const std::vector<Point>& points, int k, const Along& along,
+                                 double weight) {
+  const int count = net.triangle_count();
+  const Level level = level_directions(net, points, along);
+  const std::vector<Complex> held = beside_lines(net, points, k, along);
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(2 * count, 1);
+  const auto add = [&](int row, int column, Complex value) {  // a complex entry as a real block, the lower half
+    const double block[2][2] = {{value.real(), -value.imag()}, {value.imag(), value.real()}};
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) {
+        if (2 * row + i >= 2 * column + j) entries.emplace_back(2 * row + i, 2 * column + j, block[i][j]);
+      }
+    }
+  };
+  for (int t = 0; t < count; ++t) {
+    if (held[t] != 0.0) {
+      add(t, t, kHeld);
+      b(2 * t, 0) = kHeld * held[t].real();
+      b(2 * t + 1, 0) = kHeld * held[t].imag();
+      continue;
+    }
+    const double pull = weight * kScale / count * (net.area[t] / net.whole_area * count) * level.steepness[t];
+    add(t, t, pull + 1e-9);
+    const Complex wanted = pull * std::pow(level.direction[t], k);
+    b(2 * t, 0) = wanted.real();
+    b(2 * t + 1, 0) = wanted.imag();
+  }
+  for (int side = 0; side < net.side_count(); ++side) {
+    const int back = net.twin[side];
+    if (back < side) continue;  // each inner edge once
+    const int f = side / 3, g = back / 3;
+    if (f == g) continue;
+    const double w = dual_weight(net, side);
+    const Complex carried = std::polar(1.0, k * net.transport[side]);  // z_g is to be carried * z_f
+    add(f, f, w);
+    add(g, g, w);
+    if (f < g)
+      add(g, f, -w * carried);
+    else
+      add(f, g, -w * std::conj(carried));
+  }
+  Eigen::SparseMatrix<double> lower(2 * count, 2 * count);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  solver::SparseCholesky factor;
+  factor.compute(lower, {});
+  const Eigen::MatrixXd x = factor.solve(b);
+  std::vector<Complex> field(count);
+  for (int t = 0; t < count; ++t) {
+    const Complex z(x(2 * t, 0), x(2 * t + 1, 0));
+    field[t] = held[t] != 0.0 ? held[t] : std::abs(z) > 0 ? z / std::abs(z) : Complex(1);
+  }
+  return field;
+}
+
+void pull_level(const Net& net, const std::vector<Point>& points, int k, const Along& along, double weight,
+                std::vector<double>& angle) {
+  const int count = net.triangle_count();
+  const Level level = level_directions(net, points, along);
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd pull(count);
+  for (int t = 0; t < count; ++t) {
+    pull[t] = weight * kScale * net.area[t] / net.whole_area * level.steepness[t];
+    entries.emplace_back(t, t, pull[t] + 1e-9);
+  }
+  for (int side = 0; side < net.side_count(); ++side) {
+    const int f = side / 3, g = net.twin[side] / 3;
+    if (net.twin[side] < side || f == g) continue;
+    const double w = dual_weight(net, side);
+    entries.emplace_back(f, f, w);
+    entries.emplace_back(g, g, w);
+    entries.emplace_back(std::max(f, g), std::min(f, g), -w);
+  }
+  Eigen::SparseMatrix<double> lower(count, count);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  solver::SparseCholesky factor;
+  factor.compute(lower, {});
+  Eigen::MatrixXd delta = Eigen::MatrixXd::Zero(count, 1);
+  for (int step = 0; step < kPulls; ++step) {
+    Eigen::MatrixXd b(count, 1);
+    for (int t = 0; t < count; ++t) {
+      const double off = k * (angle[t] + delta(t, 0) - std::arg(level.direction[t]));
+      b(t, 0) = pull[t] * (delta(t, 0) - std::sin(off) / k);
+    }
+    delta = factor.solve(b);
+  }
+  for (int t = 0; t < count; ++t) angle[t] += delta(t, 0);
+}
+
+std::vector<int> cones_of_field(const Net& net, const std::vector<Complex>& field, int k) {
+  std::vector<double> turned(net.vertex_count(), 0.0);
+  for (int v = 0; v < net.vertex_count(); ++v) {
+    if (net.first[v] >= 0) turned[v] = net.defect[v];
+  }
+  for (int side = 0; side < net.side_count(); ++side) {
+    const int back = net.twin[side];
+    if (back >= 0) {
+      const Complex carried = field[side / 3] * std::polar(1.0, k * net.transport[side]);
+      turned[net.head[side]] += std::arg(field[back / 3] * std::conj(carried)) / k;
+    } else if (net.hole[net.tail[side]] < 0) {  // what the boundary turns against the field
+      const double beside = within_turn(std::arg(net.along[side]) - std::arg(field[side / 3]) / k, k);
+      turned[net.tail[side]] -= beside;
+      turned[net.head[side]] += beside;
+    }
+  }
+  std::vector<double> sums(net.vertex_count(), 0.0);
+  for (int v = 0; v < net.vertex_count(); ++v) sums[net.hole[v] < 0 ? v : net.hole[v]] += turned[v];
+  std::vector<int> missing(net.vertex_count(), 0);
+  for (int v = 0; v < net.vertex_count(); ++v)
+    missing[v] = static_cast<int>(std::lround(k * sums[v] / (2 * std::numbers::pi)));
+  return missing;
+}
 
 Laplace::Laplace(const Net& net) : net_(net), unknown_(net.vertex_count(), -1) {
   int count = 0;

@@ -11,7 +11,7 @@
 #include "base/execution.h"
 #include "tiling/cones/net.h"
 #include "tiling/cones/scale_form.h"
-#include "tiling/greens/coarse_level.h"
+#include "tiling/greens/pole_basis.h"
 #include "uv/evening.h"
 
 namespace holomorph::tiling {

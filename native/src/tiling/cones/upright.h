@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "tiling/cones/level_field.h"
 #include "tiling/cones/net.h"
+#include "tiling/cones/scale_form.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::tiling {

@@ -2,20 +2,57 @@
 // spread over the area.
 #pragma once
 
+#include <Eigen/Core>
+#include <complex>
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "base/execution.h"
 #include "base/held.h"
 #include "base/resource_pool.h"
+#include "mesh/surface.h"
 #include "structure/harmonic_solver.h"
-#include "structure/options.h"
+#include "structure/solver_report.h"
 #include "structure/structure.h"
-#include "tiling/greens/coarse_level.h"
-#include "tiling/notation.h"
 #include "uv/density_objective.h"
 
 namespace holomorph::tiling {
+
+// The short names of matrices in this room.
+
+using Complex = std::complex<double>;
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+
+// A level of the progressive mesh on which poles are searched for. Its vertices are vertices of the surface.
+
+/// On a surface with more triangles, poles are searched for on a level of about this many.
+inline constexpr int kLevelTriangles = 10'000;
+
+struct CoarseLevel {
+  std::shared_ptr<const mesh::Surface> surface;
+  std::vector<int> vertex;     ///< #V of the level: the same vertex of the surface
+  std::vector<int> collapsed;  ///< #V of the surface: the vertex of the level that it was collapsed into
+  /// The corners that are vertices of the level, for each polygon of the surface with more than four.
+  std::vector<std::vector<int>> large_polygons = {};
+
+  /// Whether the level has all triangles of the surface.
+  bool is_whole(const mesh::Surface& all) const { return surface->triangles.size() == all.triangles.size(); }
+};
+
+/// Makes the coarse level of a surface. Its vertices are numbered by their positions, so that the poles do not depend
+/// on the surface's numbers. A small surface keeps all its triangles. An intrinsic surface, or one without a
+/// progressive mesh, is its own level. @throws Cancelled
+CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution,
+                         int triangles = kLevelTriangles);
 
 /// Green's functions that are solved for at a time.
 inline constexpr int kGreensBlock = 32;
@@ -89,6 +126,38 @@ class PoleBasis {
   VectorXcd from_level_;
 
   std::vector<char> uncertain_;  // #V, or none
+};
+
+// Green's functions: the differentials of the third kind with a pole at a vertex, on the samples of a basis.
+
+/// The Green's functions of the vertices that were solved for. Call `solve_at` before a parallel region: all other
+/// members are const.
+class GreensFunctions {
+ public:
+  explicit GreensFunctions(std::shared_ptr<const PoleBasis> basis) : basis_(std::move(basis)) {}
+
+  /// Takes these functions, on a coarse level, for those of its surface. This object is left without any, to save
+  /// memory.
+  GreensFunctions on(std::shared_ptr<const PoleBasis> surface) &&;
+
+  const PoleBasis& basis() const { return *basis_; }
+  const std::shared_ptr<const PoleBasis>& shared_basis() const { return basis_; }
+
+  /// Solves for the functions of these vertices that are missing, kGreensBlock at a time. @throws SolverError,
+  /// Cancelled
+  void solve_at(const std::vector<int>& vertices, Execution& execution);
+
+  /// Returns A, #samples x #vertices, of the differentials with the residue 1 at each vertex and v single-valued. With
+  /// boundary, v = 0 there. Closed, the residue -1 is spread over the area, and cancels where residues sum to 0.
+  /// @param every stride of the samples that are returned. @pre `solve_at` was called for these vertices
+  MatrixXcd at(const std::vector<int>& vertices, int every = 1) const;
+  /// Returns the same for the free residues, #samples x #free residues: on a closed surface each function minus that of
+  /// the last vertex, whose residue is minus the sum of the others.
+  MatrixXcd pole_forms(const std::vector<int>& vertices, int every = 1) const;
+
+ private:
+  std::shared_ptr<const PoleBasis> basis_;
+  std::unordered_map<int, VectorXcd> known_;  // by PoleBasis::solved_vertex
 };
 
 }  // namespace holomorph::tiling

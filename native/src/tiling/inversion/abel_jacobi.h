@@ -1,6 +1,8 @@
 // The Abel-Jacobi map of the vertices of a closed surface with handles, exact on its triangulation.
 #pragma once
 
+#include <Eigen/Core>
+#include <complex>
 #include <mutex>
 #include <unordered_map>
 #include <vector>

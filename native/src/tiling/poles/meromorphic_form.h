@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "tiling/greens/greens_functions.h"
+#include "tiling/greens/pole_basis.h"
 
 namespace holomorph::tiling {
 

@@ -7,7 +7,7 @@
 #include "base/errors.h"
 #include "mesh/stars.h"
 #include "mesh/surface_walk.h"
-#include "structure/pole_choice.h"
+#include "structure/structure.h"
 
 namespace holomorph::tiling {
 namespace {

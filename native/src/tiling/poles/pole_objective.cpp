@@ -7,7 +7,7 @@
 
 #include "base/held.h"
 #include "linear/dense.h"
-#include "tiling/notation.h"
+#include "tiling/inversion/abel_jacobi.h"
 #include "uv/density_objective.h"
 
 namespace holomorph::tiling {

@@ -27,7 +27,7 @@ class PoleObjective {
   /// costs as much as a pole. `fit` changes them all.
   bool has_many_forms() const;
   /// Finds the best form with these poles, from the coefficients given, and its objective, to the accuracy of a search
-  /// (candidate_scores.h). Descends once for each floor of the density. @pre `prepare` was called for the poles, here
+  /// (search_steps.h). Descends once for each floor of the density. @pre `prepare` was called for the poles, here
   /// and below
   /// @param tick called every few milliseconds; it may throw
   void optimise(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const;
