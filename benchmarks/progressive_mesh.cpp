@@ -18,7 +18,6 @@
 
 #include "mesh/io/read.h"
 #include "mesh/make_surface.h"
-#include "progressive/progressive_mesh.h"
 #include "progressive/refinement.h"
 #include "progressive/simplify.h"
 

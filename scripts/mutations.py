@@ -248,7 +248,7 @@ MUTATIONS = (
     )
     | of(ROOM + "mesh/input_filter.h", ("wild", "kWild = 1e9", "kWild = 1e13", WILD))
     | of(
-        ROOM + "mesh/slivers.cpp",
+        ROOM + "mesh/cut_open.cpp",
         ("slivers-shortest-sides", "surface.edge_lengths[a] > surface", "surface.edge_lengths[a] < surface", SLIVERS),
         ("slivers-rounding", "kCoordinateRounding = 0x1p-20", "kCoordinateRounding = 0x1p-40", SLIVERS),
     )
@@ -259,7 +259,7 @@ MUTATIONS = (
     | of(ROOM + "flat/pieces.cpp", ("windows-shortest", "std::pair(-a.length", "std::pair(a.length", MIXED))
     | of(ROOM + "flat/island_layout.cpp", ("same-place", "kSame = 1e-5", "kSame = 1e-6", SLIVERS))
     | of(
-        ROOM + "tiling/cones/line_values.cpp",
+        ROOM + "tiling/cones/transitions.cpp",
         ("lines-signs", "a.factor * b.factor, std::move(less)", "1, std::move(less)", LINES),
         ("lines-offsets", "add_to(own.offset, next.offset, own.factor);", "", LINES),
     )

@@ -69,7 +69,7 @@ def rectangle_map(
 
     corners : list of four boundary vertices in the order of the boundary, the surface on its left. Default: the clear
         corners of the boundary, where it turns by more than 45 degrees at exactly four places and back at none
-        (native/src/flat/rectangle_corners.h); else the quarters of its length
+        (native/src/flat/rectangle.h); else the quarters of its length
     bounds : relative width that the bounds of the modulus are to have, such as 1e-8; the result's `refinement` tells
     solver, threads, most_faces, progress : as in `conformal_structure`
 

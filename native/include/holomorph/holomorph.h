@@ -41,6 +41,5 @@
 #include "tiling/cones/turned_tiling.h"
 #include "tiling/tiling.h"
 #include "uv/appearance.h"
-#include "uv/distortion.h"
 #include "uv/evening.h"
 #include "uv/quality.h"

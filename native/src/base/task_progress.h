@@ -4,8 +4,8 @@
 #include <atomic>
 #include <exception>
 
-#include "base/chunks.h"
 #include "base/execution.h"
+#include "base/workers.h"
 
 namespace holomorph {
 

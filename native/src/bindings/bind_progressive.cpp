@@ -13,7 +13,6 @@
 #include "mesh/corner_turns.h"
 #include "mesh/make_surface.h"
 #include "progressive/corner_values.h"
-#include "progressive/progressive_mesh.h"
 #include "progressive/refinement.h"
 #include "progressive/simplify.h"
 #include "topology/pulled_back_classes.h"

@@ -12,7 +12,6 @@
 #include "bindings/bindings.h"
 #include "uv/appearance.h"
 #include "uv/direction.h"
-#include "uv/distortion.h"
 #include "uv/quality.h"
 
 namespace holomorph::bindings {

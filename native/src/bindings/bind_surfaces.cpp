@@ -1,6 +1,7 @@
 // Surfaces, and how they come in.
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <optional>
 
 #include <array>
 #include <filesystem>
@@ -13,13 +14,14 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "mesh/components.h"
+#include "mesh/cut_open.h"
 #include "mesh/cutting.h"
+#include "mesh/hard_edges.h"
 #include "mesh/intrinsic_surface.h"
 #include "mesh/io/read.h"
 #include "mesh/io/read_stl.h"
 #include "mesh/make_surface.h"
-#include "mesh/slivers.h"
-#include "mesh/surface_walk.h"
+#include "mesh/stars.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -216,8 +218,35 @@ void bind_file(py::module_& m) {
       .def_property_readonly("corner_vertices", [](const FileMesh& f) { return copy(f.polygons.corner_vertices); })
       .def_property_readonly("face_offsets", [](const FileMesh& f) { return copy(f.polygons.face_offsets); })
       .def_property_readonly("corner_index", [](const FileMesh& f) { return copy(f.polygons.file.corner_index); })
-      .def_property_readonly("has_more", [](const FileMesh& f) { return f.polygons.file.has_more; })
       .def("surface", &FileMesh::surface, py::arg("strict"));
+}
+
+using mesh::Surface;
+
+using Flags = Contiguous<bool>;
+
+std::vector<char> flags(const Flags& given) { return {given.data(), given.data() + given.size()}; }
+
+py::array as_flags(std::vector<char> values) { return give(std::move(values)).attr("view")("bool"); }
+
+// compute(execution), without the interpreter's lock.
+template <class Compute>
+auto unlocked(const Compute& compute) {
+  const py::gil_scoped_release released;
+  Execution execution;
+  return compute(execution);
+}
+
+// (surface, (#V,) the vertex that each of its is a copy of)
+std::pair<std::shared_ptr<Surface>, py::array> cut_open(const Surface& surface, const Flags& is_cut) {
+  mesh::OpenSurface made = unlocked([&, cut = flags(is_cut)](Execution& e) { return mesh::cut_open(surface, cut, e); });
+  return {std::make_shared<Surface>(std::move(made.surface)), give(std::move(made.vertex_index))};
+}
+
+// ((n,) vertices, (#T, 3) the copies at the corners of triangles)
+std::pair<py::array, py::array> parted_vertices(const Surface& surface, const Flags& is_cut) {
+  auto made = mesh::parted_vertices(surface, flags(is_cut));
+  return {give(std::move(made.vertices)), copy_rows(made.of_triangles)};
 }
 
 }  // namespace
@@ -279,6 +308,45 @@ void bind_surfaces(py::module_& m) {
       .def_property_readonly("reversed_faces", repairs(&mesh::Repairs::reversed_faces))
       .def_property_readonly("isolated_vertices", repairs(&mesh::Repairs::isolated_vertices))
       .def_property_readonly("zero_area_faces", repairs(&mesh::Repairs::zero_area_faces));
+}
+
+void bind_cuts(py::module_& m) {
+  m.def("cut_open", &cut_open, "surface"_a, "is_cut"_a);
+  m.def("parted_vertices", &parted_vertices, "surface"_a, "is_cut"_a);
+  m.def(
+      "bends", [](const Surface& surface) { return give(mesh::bends(surface)); }, "surface"_a);
+  m.def(
+      "breaks",
+      [](const Surface& surface) { return give(unlocked([&](Execution&) { return mesh::breaks(surface); })); },
+      "surface"_a);
+  m.def(
+      "face_normals", [](const Surface& surface) { return copy_rows(mesh::face_normals(surface)); }, "surface"_a);
+  m.def("seen", py::vectorize(&mesh::seen), "breaks_off"_a);
+  m.def(
+      "curvature",
+      [](const Surface& surface, const Flags& is_seam, double most) {
+        return mesh::curvature(surface, flags(is_seam), most);
+      },
+      "surface"_a, "is_seam"_a, "most"_a);
+  m.def(
+      "cuts_to_tips",
+      [](const Surface& surface, const Flags& is_seam) {
+        return as_flags(
+            unlocked([&, seam = flags(is_seam)](Execution& e) { return mesh::cuts_to_tips(surface, seam, e); }));
+      },
+      "surface"_a, "is_seam"_a);
+  m.def(
+      "on_border",
+      [](const Surface& surface, const Flags& is_cut) { return as_flags(mesh::on_border(surface, flags(is_cut))); },
+      "surface"_a, "is_cut"_a);
+  m.def(
+      "paths_to_border",
+      [](const Surface& surface, const Flags& is_border, const Flags& starts) {
+        return as_flags(unlocked([&, border = flags(is_border), from = flags(starts)](Execution& e) {
+          return mesh::paths_to_border(surface, border, from, e);
+        }));
+      },
+      "surface"_a, "is_border"_a, "starts"_a);
 }
 
 }  // namespace holomorph::bindings

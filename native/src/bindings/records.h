@@ -8,7 +8,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
-#include "structure/solved.h"
+#include "structure/primal_forms.h"
 #include "tiling/cones/turned_tiling.h"
 #include "uv/zeros.h"
 

@@ -4,7 +4,7 @@
 #include <complex>
 #include <vector>
 
-#include "base/held.h"
+#include "base/errors.h"
 #include "flat/dirichlet_problem.h"
 #include "uv/quality.h"
 

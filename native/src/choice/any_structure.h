@@ -10,7 +10,7 @@
 #include "choice/part.h"
 #include "choice/tilers.h"
 #include "flat/dirichlet_problem.h"
-#include "structure/solved.h"
+#include "structure/primal_forms.h"
 #include "uv/quality.h"
 #include "uv/turned_functions.h"
 

@@ -8,9 +8,8 @@
 
 #include "choice/any_structure.h"
 #include "choice/truncated.h"
-#include "flat/free_boundary.h"
+#include "flat/dirichlet_problem.h"
 #include "flat/rectangle.h"
-#include "flat/rectangle_corners.h"
 #include "structure/conformal_structure.h"
 #include "structure/pole_structure.h"
 

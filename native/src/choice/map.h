@@ -9,7 +9,7 @@
 #include "choice/seamless_map.h"
 #include "flat/arrangement.h"
 #include "flat/island_layout.h"
-#include "uv/distortion.h"
+#include "uv/appearance.h"
 
 namespace holomorph::choice {
 

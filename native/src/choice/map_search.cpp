@@ -1,5 +1,5 @@
 #include "choice/map_search.h"
-#include "base/held.h"
+#include "base/errors.h"
 #include "choice/any_structure.h"
 #include "choice/automatic_structure.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/held.h"
+#include "base/errors.h"
 #include "choice/budget.h"
 #include "choice/map.h"
 #include "choice/piece_search.h"

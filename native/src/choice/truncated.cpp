@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "base/held.h"
+#include "base/errors.h"
 #include "mesh/make_surface.h"
 #include "mesh/surface.h"
 #include "structure/pole_structure.h"

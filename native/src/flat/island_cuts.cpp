@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "flat/free_boundary.h"
+#include "flat/dirichlet_problem.h"
 #include "flat/split_overlaps.h"
 #include "mesh/components.h"
 #include "mesh/cut_open.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/chunks.h"
 #include "base/page_allocator.h"
+#include "base/workers.h"
 
 namespace holomorph::forms {
 namespace {

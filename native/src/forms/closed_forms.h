@@ -7,7 +7,7 @@
 
 #include "base/workers.h"
 #include "mesh/half_edges.h"
-#include "topology/integer_forms.h"
+#include "topology/homology.h"
 
 namespace holomorph::forms {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "base/chunks.h"
 #include "base/execution.h"
+#include "base/workers.h"
 #include "forms/closed_forms.h"
 #include "mesh/half_edges.h"
 #include "mesh/intrinsic_surface.h"

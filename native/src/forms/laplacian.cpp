@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/chunks.h"
 #include "base/double_double.h"
 #include "base/page_allocator.h"
+#include "base/workers.h"
 
 namespace holomorph::forms {
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <sstream>
 
-#include "base/chunks.h"
 #include "base/errors.h"
+#include "base/workers.h"
 #include "forms/laplacian.h"
 
 namespace holomorph::forms {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "mesh/corner_labels.h"
 #include "mesh/input_filter.h"
 #include "mesh/stitching.h"
 #include "mesh/surface.h"

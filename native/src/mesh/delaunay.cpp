@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/chunks.h"
+#include "base/workers.h"
 #include "mesh/metric_errors.h"
 #include "mesh/triangle_geometry.h"
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "base/chunks.h"
 #include "base/errors.h"
+#include "base/workers.h"
 
 namespace holomorph::mesh {
 namespace {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "mesh/cut_open.h"
-#include "mesh/slivers.h"
 #include "mesh/union_find.h"
 
 namespace holomorph::mesh {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <span>
 
-#include "base/chunks.h"
 #include "base/errors.h"
+#include "base/workers.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {

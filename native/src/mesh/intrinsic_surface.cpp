@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/chunks.h"
 #include "base/errors.h"
+#include "base/workers.h"
 #include "mesh/half_edges.h"
 #include "mesh/orientation.h"
 #include "mesh/triangle_geometry.h"

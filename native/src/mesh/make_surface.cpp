@@ -9,7 +9,7 @@
 #include <queue>
 #include <vector>
 
-#include "base/chunks.h"
+#include "base/workers.h"
 #include "mesh/input_filter.h"
 #include "mesh/orientation.h"
 #include "mesh/polygon_edges.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/chunks.h"
 #include "base/double_double.h"
+#include "base/workers.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <string>
 
-#include "base/chunks.h"
 #include "base/errors.h"
+#include "base/workers.h"
 #include "mesh/half_edges.h"
 #include "mesh/triangle_geometry.h"
 

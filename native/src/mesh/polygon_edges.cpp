@@ -6,9 +6,9 @@
 #include <tuple>
 #include <utility>
 
-#include "base/chunks.h"
 #include "base/errors.h"
 #include "base/page_allocator.h"
+#include "base/workers.h"
 
 namespace holomorph::mesh {
 namespace {

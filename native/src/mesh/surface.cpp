@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/chunks.h"
+#include "base/workers.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {

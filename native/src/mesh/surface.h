@@ -19,7 +19,6 @@ struct FileRecord {
   int first_number = 0;                       ///< of vertices and faces, as the format counts them
   std::vector<int> face_index, corner_index;  ///< places in the file; empty where nothing was left out
   std::vector<std::string> notes;             ///< sentences about what is wrong, although the rest was read
-  bool has_more = false;                      ///< of OBJ: UVs, materials, colours or several objects
 
   std::string vertex(std::int64_t v) const { return std::to_string(first_number + v); }
   std::string face(std::int64_t f) const {

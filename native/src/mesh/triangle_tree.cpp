@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "base/chunks.h"
+#include "base/workers.h"
 
 namespace holomorph::mesh {
 

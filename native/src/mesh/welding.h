@@ -4,7 +4,6 @@
 #include <array>
 #include <vector>
 
-#include "mesh/corner_labels.h"
 #include "mesh/stitching.h"
 #include "mesh/surface.h"
 

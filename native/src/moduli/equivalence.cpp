@@ -8,7 +8,6 @@
 #include <string>
 
 #include "base/errors.h"
-#include "base/held.h"
 #include "forms/certain_bounds.h"
 #include "linear/dense.h"
 #include "linear/reduction.h"

@@ -6,10 +6,10 @@
 #include <numeric>
 #include <utility>
 
-#include "base/chunks.h"
+#include "base/workers.h"
 #include "linear/dense.h"
 #include "mesh/half_edges.h"
-#include "mesh/surface_walk.h"
+#include "mesh/stars.h"
 
 namespace holomorph::moduli {
 

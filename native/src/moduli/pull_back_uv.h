@@ -9,8 +9,8 @@
 #include "base/execution.h"
 #include "forms/closed_forms.h"
 #include "mesh/half_edges.h"
+#include "mesh/stars.h"
 #include "mesh/surface.h"
-#include "mesh/surface_walk.h"
 
 namespace holomorph::moduli {
 

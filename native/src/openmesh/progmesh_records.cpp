@@ -2,7 +2,6 @@
 
 #include <numeric>
 
-#include "progressive/progressive_mesh.h"
 #include "progressive/refinement.h"
 
 namespace holomorph::openmesh {

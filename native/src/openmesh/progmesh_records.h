@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "openmesh/surface_of_mesh.h"
-#include "progressive/progressive_mesh.h"
+#include "progressive/refinement.h"
 
 namespace holomorph::openmesh {
 

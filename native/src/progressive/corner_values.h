@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "progressive/progressive_mesh.h"
+#include "progressive/refinement.h"
 
 namespace holomorph::progressive {
 

@@ -6,7 +6,7 @@
 
 #include "base/execution.h"
 #include "mesh/surface.h"
-#include "progressive/progressive_mesh.h"
+#include "progressive/refinement.h"
 
 namespace holomorph::progressive {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/chunks.h"
 #include "base/page_allocator.h"
-#include "solver/column_blocks.h"
+#include "base/workers.h"
+#include "solver/laplace_solver.h"
 
 namespace holomorph::solver {
 namespace {

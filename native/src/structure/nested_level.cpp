@@ -6,7 +6,7 @@
 #include "mesh/components.h"
 #include "mesh/delaunay.h"
 #include "structure/structure.h"
-#include "topology/integer_forms.h"
+#include "topology/homology.h"
 
 namespace holomorph::structure {
 namespace {

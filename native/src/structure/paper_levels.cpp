@@ -8,7 +8,7 @@
 #include "mesh/half_edges.h"
 #include "mesh/triangle_geometry.h"
 #include "progressive/simplify.h"
-#include "topology/integer_forms.h"
+#include "topology/homology.h"
 
 namespace holomorph::structure {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "base/execution.h"
-#include "progressive/progressive_mesh.h"
+#include "progressive/refinement.h"
 #include "solver/laplace_solver.h"
 #include "topology/pulled_back_classes.h"
 

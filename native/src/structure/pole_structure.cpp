@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/held.h"
+#include "base/errors.h"
 #include "structure/structure.h"
 
 namespace holomorph::structure {

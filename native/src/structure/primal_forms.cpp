@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/chunks.h"
+#include "base/workers.h"
 #include "forms/closed_forms.h"
 #include "mesh/components.h"
 #include "structure/conformal_structure.h"

@@ -9,7 +9,6 @@
 #include "forms/gram_matrices.h"
 #include "mesh/components.h"
 #include "mesh/stars.h"
-#include "mesh/surface_walk.h"
 #include "uv/uv_map.h"
 #include "uv/zeros.h"
 

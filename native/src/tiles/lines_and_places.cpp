@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/chunks.h"
 #include "base/task_progress.h"
+#include "base/workers.h"
 #include "tiles/triangle_cut.h"
 
 namespace holomorph::tiles {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/chunks.h"
 #include "base/task_progress.h"
+#include "base/workers.h"
 
 namespace holomorph::tiles {
 namespace {

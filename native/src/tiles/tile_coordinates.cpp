@@ -7,8 +7,8 @@
 #include <sstream>
 #include <string>
 
-#include "base/chunks.h"
 #include "base/errors.h"
+#include "base/workers.h"
 
 namespace holomorph::tiles {
 namespace {

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "base/chunks.h"
+#include "base/workers.h"
 
 namespace holomorph::tiles {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "linear/dense.h"
 #include "mesh/stars.h"
-#include "mesh/surface_walk.h"
 #include "tiling/poles/pole_placement.h"
 #include "uv/balance.h"
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "base/errors.h"
-#include "base/held.h"
 #include "base/task_progress.h"
 
 namespace holomorph::tiling {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "progressive/progressive_mesh.h"
+#include "progressive/refinement.h"
 #include "topology/homology.h"
 
 namespace holomorph::topology {

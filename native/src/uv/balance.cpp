@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "base/held.h"
+#include "base/errors.h"
 #include "base/task_progress.h"
 #include "linear/dense.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/chunks.h"
+#include "base/workers.h"
 
 namespace holomorph::uv {
 namespace {

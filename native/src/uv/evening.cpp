@@ -6,13 +6,12 @@
 #include <optional>
 #include <utility>
 
-#include "base/chunks.h"
+#include "base/workers.h"
 #include "forms/laplacian.h"
 #include "mesh/half_edges.h"
 #include "mesh/union_find.h"
 #include "solver/direct/sparse_cholesky.h"
 #include "solver/solver_choice.h"
-#include "uv/descent.h"
 #include "uv/turned_functions.h"
 
 namespace holomorph::uv {

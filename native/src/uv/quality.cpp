@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "base/chunks.h"
+#include "base/workers.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::uv {

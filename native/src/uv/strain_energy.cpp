@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/chunks.h"
+#include "base/workers.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::uv {

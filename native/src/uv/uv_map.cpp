@@ -5,7 +5,7 @@
 #include <limits>
 #include <unordered_map>
 
-#include "base/chunks.h"
+#include "base/workers.h"
 #include "mesh/surface.h"
 
 namespace holomorph::uv {

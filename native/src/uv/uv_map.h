@@ -6,13 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "base/chunks.h"
 #include "base/errors.h"
 #include "base/execution.h"
 #include "base/workers.h"
 #include "forms/closed_forms.h"
 #include "topology/domain.h"
-#include "topology/integer_forms.h"
+#include "topology/homology.h"
 
 namespace holomorph {
 

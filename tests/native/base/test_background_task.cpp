@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/chunks.h"
+#include "base/workers.h"
 
 namespace holomorph {
 namespace {

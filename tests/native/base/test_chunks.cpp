@@ -1,4 +1,4 @@
-#include "base/chunks.h"
+#include "base/workers.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "mesh/make_surface.h"
-#include "mesh/surface_walk.h"
+#include "mesh/stars.h"
 #include "mesh/triangle_tree.h"
 #include "structure/pole_structure.h"
 #include "tiling/greens/pole_basis.h"

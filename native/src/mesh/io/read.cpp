@@ -56,7 +56,6 @@ GivenPolygons read_obj(const FileText& file) {
   GivenPolygons mesh;
   mesh.file.first_number = 1;
   bool is_coloured = false;
-  int objects = 0;
   mesh.face_offsets.push_back(0);
   for (Scanner scan(file, Comments::after_hash); !scan.at_end(); scan.next_line()) {
     const auto keyword = scan.word();
@@ -70,10 +69,7 @@ GivenPolygons read_obj(const FileText& file) {
         mesh.corner_vertices.push_back(vertex_index(scan, corner, vertices_so_far));
       mesh.face_offsets.push_back(static_cast<std::int64_t>(mesh.corner_vertices.size()));
     }
-    objects += keyword == "o" ? 1 : 0;
-    mesh.file.has_more |= objects > 1 || keyword == "vt" || keyword == "usemtl";
   }
-  mesh.file.has_more |= is_coloured;
   if (is_coloured) mesh.file.notes.emplace_back(kColours);
   return mesh;
 }

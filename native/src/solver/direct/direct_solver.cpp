@@ -4,8 +4,8 @@
 #include <cassert>
 #include <sstream>
 
-#include "solver/column_blocks.h"
 #include "solver/direct/sparse_cholesky.h"
+#include "solver/laplace_solver.h"
 
 namespace holomorph::solver {
 namespace {

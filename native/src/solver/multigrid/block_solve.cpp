@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "solver/column_blocks.h"
+#include "solver/laplace_solver.h"
 
 namespace holomorph::solver {
 namespace {

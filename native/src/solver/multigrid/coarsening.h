@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "base/chunks.h"
 #include "base/execution.h"
 #include "base/page_allocator.h"
+#include "base/workers.h"
 
 namespace holomorph::solver {
 

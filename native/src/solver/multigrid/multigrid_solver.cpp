@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/chunks.h"
-#include "solver/column_blocks.h"
+#include "base/workers.h"
 #include "solver/direct/direct_solver.h"
+#include "solver/laplace_solver.h"
 #include "solver/multigrid/block_solve.h"
 
 namespace holomorph::solver {

@@ -12,7 +12,6 @@
 
 #include "base/errors.h"
 #include "mesh/triangle_tree.h"
-#include "tiling/cones/cone_places.h"
 #include "tiling/cones/scale_form.h"
 
 namespace holomorph::tiling {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/held.h"
-#include "tiling/cones/line_values.h"
+#include "base/errors.h"
+#include "tiling/cones/transitions.h"
 
 namespace holomorph::tiling {
 namespace {

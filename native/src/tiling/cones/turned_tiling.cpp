@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "base/held.h"
 #include "mesh/components.h"
 #include "mesh/hard_edges.h"
 #include "mesh/make_surface.h"

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "base/held.h"
 #include "mesh/make_surface.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/triangle_tree.h"

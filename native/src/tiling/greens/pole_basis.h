@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/errors.h"
 #include "base/execution.h"
-#include "base/held.h"
 #include "base/resource_pool.h"
 #include "mesh/surface.h"
 #include "structure/harmonic_solver.h"

@@ -3,8 +3,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "base/chunks.h"
-#include "base/held.h"
+#include "base/errors.h"
+#include "base/workers.h"
 #include "linear/dense.h"
 
 namespace holomorph::tiling {

@@ -6,7 +6,6 @@
 
 #include "base/errors.h"
 #include "mesh/stars.h"
-#include "mesh/surface_walk.h"
 #include "structure/structure.h"
 
 namespace holomorph::tiling {

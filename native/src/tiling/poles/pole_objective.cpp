@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/held.h"
+#include "base/errors.h"
 #include "linear/dense.h"
 #include "tiling/inversion/abel_jacobi.h"
 #include "uv/density_objective.h"

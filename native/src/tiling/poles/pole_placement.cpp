@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/errors.h"
-#include "base/held.h"
 #include "tiling/poles/pole_objective.h"
 #include "tiling/poles/search_steps.h"
 #include "uv/balance.h"

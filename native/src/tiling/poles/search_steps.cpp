@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <numbers>
 
-#include "base/chunks.h"
-#include "base/held.h"
+#include "base/errors.h"
+#include "base/workers.h"
 
 namespace holomorph::tiling {
 namespace {

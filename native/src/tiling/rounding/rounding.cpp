@@ -6,8 +6,8 @@
 #include <numbers>
 #include <set>
 
-#include "base/chunks.h"
 #include "base/task_progress.h"
+#include "base/workers.h"
 #include "linear/blocks.h"
 #include "linear/dense.h"
 #include "tiling/poles/meromorphic_form.h"
