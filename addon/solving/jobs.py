@@ -18,7 +18,7 @@ from ..native import holomorph, module
 structures = module("maps.chosen_structures")
 
 NONE, POLES, RECTANGLE = structures.NONE, structures.POLES, structures.RECTANGLE  # what the selection is
-AUTOMATIC, NO_EDGES = structures.AUTOMATIC, structures.NO_EDGES
+AUTOMATIC, NO_EDGES, Choices = structures.AUTOMATIC, structures.NO_EDGES, structures.Choices
 # Which faces are mapped: all; in edit mode the selected ones if there are any; these, or a refusal.
 WHOLE, SELECTED, ASKED = "WHOLE", "SELECTED", "ASKED"
 DOUBLE = 8  # bytes
@@ -28,15 +28,6 @@ KEPT_MAPS = 4  # maps kept for each object: the redo panel goes back and forth b
 # Solves, so that the dials of the redo panel cost one small matrix product and no solve: an object that was moved,
 # renamed, undone or reopened has the same, one that was edited has not.
 KEPT = module("core.newest").Kept(1_200_000_000)
-
-
-@dataclass(frozen=True)
-class Choices(structures.Choices):
-    """What is asked of every object of a run, and then, with its own vertices and seams, of each."""
-
-    cut_at_seams: bool = False
-    faces: str = WHOLE  # which ones are mapped
-    modifiers: bool = False  # whether they count, in object mode
 
 
 def numbers(text):

@@ -26,7 +26,6 @@ WHOLE = 1e-6  # part of a turn: less is rounding
 MOST_PARTS = 1200  # of a turn around one cone: all that any use has, and no sum of them overflows
 EDGED, MIRROR = ("whole", "free"), "mirror"  # lines along edges, and the one between two halves that are alike
 LINES = ("none", *EDGED, MIRROR)
-NO_EDGES = np.empty((0, 2), np.int32)
 AUTOMATIC = "automatic"  # the lines that cost little
 
 
@@ -72,12 +71,6 @@ def check_chosen(marked: Any, cones: Any) -> None:
     arrays.integer(list(cones), "cones")
 
 
-def check_cones(cones: Any, turns: int, lines: str) -> None:
-    """Raises ValueError for chosen cones of a tiling that has none, or whose lines say where they are."""
-    if cones is not None and (turns == 1 or lines != "none"):
-        raise ValueError("cones can be chosen for tilings that turn by 2, 4 or 6 and have no lines")
-
-
 def asked_turns(turns: Any, texture: ArrayLike | None) -> int:
     """`checked_turns`, or for `AUTO` those of a texture, of pixels as in `image_turns`; 1 without one."""
     if isinstance(turns, str) and turns == AUTO:
@@ -90,13 +83,3 @@ def checked_turns(turns: Any) -> int:
     if isinstance(turns, bool) or not isinstance(turns, numbers.Integral) or turns not in TURNS:
         raise ValueError(f"turns is {quoted(turns)}; one of {', '.join(map(str, TURNS))} is needed")
     return int(turns)
-
-
-def check_fits(options: dict[str, Any]) -> None:
-    """Raises ValueError for options that a turned tiling does not have.
-
-    options : by name, the value and those that fit
-    """
-    for name, (given, *fitting) in options.items():
-        if isinstance(given, np.ndarray) or given not in (*fitting, None):
-            raise ValueError(f"{name} is {quoted(given)}; a tiling that turns has no such choice: take turns=1")
