@@ -176,7 +176,7 @@ class Session:
         asked = self.mapped.request
         earlier = self._earlier or points.Points(len(self.target.find().data.vertices), self._count)
         if self.are_cones:
-            return replace(earlier, cones=tuple(asked.cones.items()))
+            return replace(earlier, cones=tuple((asked.cones or {}).items()))
         base = asked.poles if isinstance(asked.poles, tuple) else ()
         moved = {*base, *(vertex for _, vertex in asked.moves)}
         now = [part.vertices(part.tiling.poles).tolist() for part in self._tiled(self.mapped)]

@@ -81,7 +81,7 @@ class SolvedObject:
     @cached_property
     def form_count(self):
         """The largest number of forms among the components."""
-        return max((c.form_count for c in self.done), default=0)
+        return max((c.structure.form_count for c in self.done), default=0)
 
     def keep_maps(self, asked, made):
         """Adds those of the `done` components, and drops the oldest beyond `KEPT_MAPS`."""
@@ -94,7 +94,7 @@ class SolvedObject:
         """About how many bytes are held: harmonic forms and potentials; of tilers also solvers; and maps."""
         has_tilings = any(part.tiling for parts, _ in self.maps.values() for part in parts)
         per_form, per_edge = (6, 4 + DOUBLES_OF_TILER) if has_tilings else (4, 4)
-        of_edges = sum((per_form * c.form_count + per_edge) * len(c.structure.edges) for c in self.done)
+        of_edges = sum((per_form * c.structure.form_count + per_edge) * len(c.structure.edges) for c in self.done)
         corners = sum(len(c.surface.corner_vertices) for c in self.done)
         return DOUBLE * (of_edges + len(self.maps) * DOUBLES_OF_MAP * corners)
 

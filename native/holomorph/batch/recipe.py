@@ -16,8 +16,7 @@ from ..core.value import quoted, shortened
 from ..files import formats, textures, whole_file
 from ..mesh.checks import SOLVERS, as_float
 from ..tiling import tilings
-from ..tiling.request import EVENNESS, MAIN_MAPS
-from ..tiling.turned import AUTO, AUTOMATIC, LINED_TURNS, LINES, TURNS
+from ..tiling.request import AUTO, AUTOMATIC, EVENNESS, LINED_TURNS, LINES, MAIN_MAPS, TURNS
 from . import textured
 from .errors import UsageError
 

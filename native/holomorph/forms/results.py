@@ -17,10 +17,9 @@ from ..core.array_types import Integers, Progress, Reals
 from ..core.value import Solution, Value, counted
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
-from ..tiling.request import Request, part_of
+from ..tiling.request import Request, asked_turns, part_of
 from ..tiling.tiling import Tiler
 from ..tiling.tilings import Poles, Tiling
-from ..tiling.turned import asked_turns
 from .solver_report import Residuals, SolverReport
 
 

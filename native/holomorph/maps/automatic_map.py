@@ -11,9 +11,8 @@ from numpy.typing import ArrayLike
 from ..core.array_types import Progress
 from ..mesh.checks import check_list, check_type
 from ..mesh.surface import Surface
-from ..tiling.request import EVENNESS, Request
+from ..tiling.request import AUTOMATIC, EVENNESS, Request, asked_turns
 from ..tiling.tilings import Poles
-from ..tiling.turned import AUTOMATIC, asked_turns
 from .automatic_structure import AnyStructure
 from .map import Map
 from .map_objects import Refusal, map_objects

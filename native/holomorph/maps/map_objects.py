@@ -41,15 +41,15 @@ def map_objects(
     another map, which `arrangement` scales. Small parts are made side by side, and copies of one part once. What has
     no map, also for want of memory, gets the error.
     """
-    threads = check_threads(threads)
+    threads, kind = check_threads(threads), _native.Request
     asked = [[_or_error(_core, *each) for each in parts] for parts in objects]
-    fitting = [[one for one in parts if not isinstance(one, Exception)] for parts in asked]
+    fitting = [[core for core in cores if isinstance(core, kind)] for cores in asked]
     found = _native.map_objects(fitting, _native.SizePolicy(*size), threads=threads, progress=progress)
-    parts = [each for own, cores in zip(objects, asked) for each, core in zip(own, cores) if _is_core(core)]
-    maps, result = _Maps(parts, threads), []
+    pairs = (pair for each in zip(objects, asked) for pair in zip(*each))
+    maps, result = _Maps([part for part, core in pairs if isinstance(core, kind)], threads), []
     for cores, (mapped, own_size) in zip(asked, found):
         made = iter(mapped)
-        own = [maps.of(next(made)) if _is_core(core) else core for core in cores]
+        own = [maps.of(next(made)) if isinstance(core, kind) else core for core in cores]
         result.append(MappedParts(own, plain_size(own_size)))
     return result
 
@@ -60,10 +60,6 @@ def _core(request, surface, structure):
         is_needed = request.main in ("seamless", "balanced") or not isinstance(request.poles, str)
         structure = structure.made if is_needed else None
     return request.core(surface, structure)
-
-
-def _is_core(asked):
-    return not isinstance(asked, Exception)
 
 
 def _or_error(work, *arguments):
