@@ -16,6 +16,7 @@ there is no SLIM.
 import argparse
 import importlib.util
 import json
+import os
 import sys
 import time
 from dataclasses import dataclass
@@ -29,7 +30,6 @@ PACKAGE = ROOT / "build" / "lib" / f"cp{sys.version_info.major}{sys.version_info
 sys.path.insert(0, str(PACKAGE))
 
 import holomorph  # noqa: E402
-from holomorph.maps.evened_forms import evened  # noqa: E402
 from holomorph.mesh.cut_open import cut_open  # noqa: E402
 from holomorph.quality.quality import Quality  # noqa: E402
 
@@ -104,6 +104,12 @@ class Case:
         is_seam = (np.abs(jumps - np.rint(jumps)) > WHOLE * np.abs(uv).max()).any(axis=(0, 2))
         length = self.surface._native.edge_lengths[edges[one]][is_seam].sum()
         return float(length / np.linalg.norm(np.ptp(self.surface.vertices, axis=0)))
+
+
+def evened(surface, uv, evenness):
+    """(#C, 2) UVs of a disk with a free boundary, evened."""
+    options = {"poles": [], "u": [], "v": [], "solver": "auto", "threads": os.cpu_count(), "progress": None}
+    return uv + holomorph._native.evened(surface, uv, evenness=evenness, **options)[surface.corner_vertices]
 
 
 def slim(case, start, energy, iterations):

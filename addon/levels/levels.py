@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import native
 from ..maps import mapped
-from ..maps.mapped import BALANCED, MapOptions
+from ..maps.mapped import BALANCED, MappedObject, Request
 from ..native import holomorph
 from ..solving import jobs
 
@@ -52,7 +52,8 @@ class LevelsWork(jobs.Work):
         start = SOLVE_PART if self.needs_map else 0.0
         if self.needs_map:
             solved = jobs.solve(self.task, self.watch.part(0, start))
-            (self.mapped,) = mapped.mapped([solved], [MapOptions(forms=0, main=BALANCED)])
+            wanted = MappedObject(Request("balanced"), main=BALANCED, forms=0, solved=solved)
+            (self.mapped,) = mapped.mapped([wanted])
             self._add_main_map()
         surface = self.task.polygons.surface()
         if not self.names:

@@ -1,78 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The maps of solves: the main one, of tilings or of forms part by part, and those of single forms. No bpy here."""
 
-import numbers
-from dataclasses import astuple, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from .. import native
-from ..native import holomorph
+from ..native import holomorph, module
 from ..scene.uv_maps import MAIN_MAP
 
+Request, Arrangement = module("tiling.request").Request, holomorph.arrangement.Arrangement
 AUTOMATIC, SEAMLESS, BALANCED, ISLANDS = "AUTOMATIC", "SEAMLESS", "BALANCED", "ISLANDS"  # what the main map is
-MAINS = {AUTOMATIC: "automatic", SEAMLESS: "seamless"}  # as `holomorph.automatic_maps` names them
 SQUARES_LIMIT = 10_000
-
-
-@dataclass(frozen=True)
-class TileOptions:
-    """The arguments of `holomorph.Structure.tile` for one object."""
-
-    tiles: float = 0.0  # tiles over the whole object; 0 lets the library choose
-    density: float = 0.0  # tiles for an area, instead; 0 for their number
-    size: tuple = ()  # values of a `holomorph.maps.size.SizePolicy` that counts instead, as it was found with others
-    poles: object = "auto"  # or a number for each part, or a tuple of vertices of the object
-    lattice: object = "square"  # a name, or its (2, 2) matrix as tuples
-    direction: object = "upright"  # or a vector in the frame of the solved polygons, or None
-    boundary: str = "automatic"
-    turn: float = 0.0  # radians by which the texture is rotated
-    quarters: int = 0  # turns of the map by 90 degrees after it is made
-    pole_group: str = ""  # the vertex group that `allowed` was read of
-    # Bytes of the bools that tell where poles may be that are not chosen; None for anywhere.
-    allowed: bytes | None = None
-    evenness: float = 0.5  # from 0 for angles to 1 for squares of one size
-    turns: int = 1  # 2, 4 or 6: the sides of a cut may turn by this part of a full turn
-    lines: str = "automatic"  # at which rows end, or along which they run, where the map turns
-    marked: bytes | None = None  # of the vertices of edges that are lines besides those found, (n, 2) int64
-    cones: tuple = ()  # (vertex, angle in full turns) where they are chosen; none are searched for
-    moved: tuple = ()  # (index of a pole in its part's tiling, vertex to which it was dragged)
-    points: tuple = ()  # vertices of the poles that are there then; chosen themselves where the indices are of others
-
-    @property
-    def is_chosen(self):
-        """Whether poles, places for them, or a number of tiles are chosen."""
-        return bool(self.tiles or self.moved or self.cones) or self.allowed is not None or self.poles not in ("auto", 0)
-
-    @property
-    def made(self):
-        """What of it decides how a tiling is made, before it is laid out."""
-        return replace(self, quarters=0, pole_group="")
-
-
-@dataclass(frozen=True)
-class MapOptions:
-    """What the redo panel changes of the maps of one object. None of it needs a new solve."""
-
-    forms: int = 8  # basis forms that get a map of their own, at most
-    density: float = 1.0  # factor of UV lengths, about the middle of the UV square
-    rotation: float = 0.0  # radians, counter-clockwise, of every part
-    margin: float = 0.02  # least distance between parts, in sides of the UV square
-    main: str = AUTOMATIC  # what the main map is
-    per_length: float = 0.0  # UV length for a length on the surface, at density 1; 0 fills the UV square
-    tiling: TileOptions = TileOptions()
-
-    @property
-    def package_main(self):
-        """The main map that the package is asked for: another than "balanced" where nothing else is chosen."""
-        return MAINS.get(self.main, "balanced") if self.density == 1 or self.main != AUTOMATIC else "balanced"
-
-    @cached_property
-    def arrangement(self):
-        """The `holomorph.arrangement.Arrangement`."""
-        lengths = self.density, self.rotation, self.margin, self.per_length
-        return holomorph.arrangement.Arrangement(*lengths, self.tiling.quarters)
 
 
 @dataclass(frozen=True)
@@ -99,13 +39,18 @@ class MappedPart:
         return self.vertices(self.map.seams)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MappedObject:
-    """The parts of one object in the library's order."""
+    """The maps of one object: what is asked of them, none of which needs a new solve, and when they are made, the parts
+    in the library's order."""
 
-    solved: object  # `solve.SolvedObject`
-    options: MapOptions
-    parts: tuple
+    request: Request = Request()
+    arrangement: Arrangement = Arrangement()
+    main: str = AUTOMATIC  # what the main map is
+    forms: int = 8  # basis forms that get a map of their own, at most
+    points: tuple = ()  # vertices of the poles that are there then; chosen themselves where moves are of others
+    solved: object | None = None  # `solve.SolvedObject`
+    parts: tuple = ()
     packed: np.ndarray | None = None  # (#C, 2) the main map where Blender has packed its islands
 
     @property
@@ -122,7 +67,7 @@ class MappedObject:
     def is_astray(self):
         """Whether other poles were moved than those that were dragged: with other dials, others are placed."""
         poles = [part.vertices(part.tiling.poles) for part in self.tiled if part.tiling]
-        return not set(self.options.tiling.points) <= set(np.concatenate([*poles, ()]).tolist())
+        return not set(self.points) <= set(np.concatenate([*poles, ()]).tolist())
 
     @property
     def part_maps(self):
@@ -133,23 +78,23 @@ class MappedObject:
     def unit_length(self):
         """The length on the surface of a UV unit of the main map, where the density is the median one; 0 for maps
         without area."""
-        return holomorph.arrangement.unit_length(self.part_maps, self.options.arrangement)
+        return holomorph.arrangement.unit_length(self.part_maps, self.arrangement)
 
     def of_forms(self):
         """The same parts with maps of forms alone."""
         if not self.tiled:
             return self
-        conformal = replace(self.options.tiling, evenness=0.0)
-        return mapped([self.solved], [replace(self.options, main=BALANCED, tiling=conformal)])[0]
+        request = replace(self.request, main="balanced", evenness=0.0)
+        return mapped([replace(self, request=request, main=BALANCED)])[0]
 
     def maps(self):
         """Yields (name, (#C, 2) float32) for every map, the main one first; parts that lack it are zero there."""
-        arrangement, corners = self.options.arrangement, len(self.solved.polygons.corner_vertices)
+        arrangement, corners = self.arrangement, len(self.solved.polygons.corner_vertices)
         main = self.packed
         if main is None:
             main = holomorph.arrangement.arranged(self.part_maps, corners, arrangement).astype(np.float32)
         yield MAIN_MAP, main
-        count = 0 if self.packed is not None else min(self.solved.form_count, self.options.forms)
+        count = 0 if self.packed is not None else min(self.solved.form_count, self.forms)
         parts = [(one.surface, one.structure) for one in self.solved.done]
         for index in range(count):
             uv = holomorph.arrangement.arranged_form(parts, index, corners, arrangement)
@@ -160,7 +105,7 @@ class MappedObject:
         the largest part where the density is the median one, at density 1; an even number."""
         package = holomorph.arrangement
         size = max(package.diagonal(made.surface) for made in self.part_maps)
-        unit = package.unit_length(self.part_maps, replace(self.options.arrangement, density=1.0))
+        unit = package.unit_length(self.part_maps, replace(self.arrangement, density=1.0))
         return min(max(2 * round(across * unit / size / 2), 2), SQUARES_LIMIT) if unit > 0 else across
 
 
@@ -174,56 +119,57 @@ def shape_points(solved):
     return points if any(image is not None for image, _ in found) else None
 
 
-def follow(options, is_equal=False):
-    """What follows the solves of a `jobs.Job`: the `mapped` ones, by options for each of its tasks."""
+def follow(wanted, is_equal=False):
+    """What follows the solves of a `jobs.Job`: the `mapped` objects, by those that are wanted for each of its tasks."""
 
     def then(found, progress):
-        own = [options[k] for k in found]
-        return dict(zip(found, mapped(list(found.values()), own, is_equal, progress)))
+        objects = [replace(wanted[k], solved=solved) for k, solved in found.items()]
+        return dict(zip(found, mapped(objects, is_equal, progress)))
 
     return then
 
 
-def mapped(solved, options, is_equal=False, progress=None):
-    """The `MappedObject`s of solves by the options of each. What was made is kept with them: a second call is quick.
+def mapped(objects, is_equal=False, progress=None):
+    """The `MappedObject`s with their parts. What was made is kept with their solves: a second call is quick.
 
     is_equal : whether squares have one size over all objects, so that a number of tiles is over all of them
     """
-    count = len(solved)
+    count = len(objects)
     if is_equal or count == 1:
-        made = _mapped_together(solved, options, progress)
+        made = _mapped_together(objects, progress)
         return _of_one_length(made) if count > 1 else made
-    sizes, done, made = [one.polygons.face_count for one in solved], 0.0, []
-    for one, own, size in zip(solved, options, sizes):
+    sizes, done, made = [one.solved.polygons.face_count for one in objects], 0.0, []
+    for one, size in zip(objects, sizes):
         share = size / (sum(sizes) or 1)
-        made += _mapped_together([one], [own], holomorph.core.progress.scaled(progress, done, done + share))
+        made += _mapped_together([one], holomorph.core.progress.scaled(progress, done, done + share))
         done += share
     return made
 
 
-def _mapped_together(solved, options, progress):
+def _mapped_together(objects, progress):
     """With squares of one size. Maps are kept with each solve, which equal objects share, under what was asked of it
     and of all of them."""
-    together = tuple(_asked(*each) for each in zip(solved, options))
-    if not all((asked, together) in one.maps for one, asked in zip(solved, together)):
-        for one, asked, kept in zip(solved, together, _made(solved, options, progress)):
-            one.keep_maps((asked, together), kept)
-    made = [_object(one, own, *one.maps[asked, together]) for one, own, asked in zip(solved, options, together)]
+    together = tuple((one.solved.number, one.request.key) for one in objects)
+    keys = [(own, together) for own in together]
+    if not all(key in one.solved.maps for one, key in zip(objects, keys)):
+        for one, key, kept in zip(objects, keys, _made(objects, progress)):
+            one.solved.keep_maps(key, kept)
+    made = [_with_parts(one, *one.solved.maps[key]) for one, key in zip(objects, keys)]
     if not any(one.is_astray for one in made):
         return made
-    anew = [_with_poles(one, own) if one.is_astray else own for one, own in zip(made, options)]
-    return _mapped_together(solved, anew, progress)
+    anew = [_with_poles(one, own) if one.is_astray else own for one, own in zip(made, objects)]
+    return _mapped_together(anew, progress)
 
 
-def _with_poles(made, options):
-    """The options for poles that went astray: all of them are chosen first. A choice leaves out those that these dials
-    do not need, so of what was dragged, the nearest of the others is dragged there then."""
-    asked = options.tiling
-    if asked.moved or asked.poles == asked.points:
-        dragged = tuple(vertex for _, vertex in asked.moved)
-        return replace(options, tiling=replace(asked, poles=asked.points, moved=(), points=dragged))
-    moves = [move for part in made.tiled if part.tiling for move in _drags(part, asked.points)]
-    return replace(options, tiling=replace(asked, moved=tuple(moves), points=()))
+def _with_poles(made, wanted):
+    """What is wanted for poles that went astray: all of them are chosen first. A choice leaves out those that these
+    dials do not need, so of what was dragged, the nearest of the others is dragged there then."""
+    asked = wanted.request
+    if asked.moves or asked.poles == wanted.points:
+        dragged = tuple(vertex for _, vertex in asked.moves)
+        return replace(wanted, request=replace(asked, poles=wanted.points, moves=()), points=dragged)
+    moves = [move for part in made.tiled if part.tiling for move in _drags(part, wanted.points)]
+    return replace(wanted, request=replace(asked, moves=tuple(moves)), points=())
 
 
 def _drags(part, dragged):
@@ -237,16 +183,11 @@ def _drags(part, dragged):
         yield int(nearest), int(vertex)
 
 
-def _asked(solved, options):
-    """What decides how the parts of a solve are mapped, before they are laid out."""
-    return solved.number, options.package_main, options.tiling.made
-
-
-def _object(solved, options, parts, size):
-    """The `MappedObject`, also of the parts that have no structure."""
-    made, tiling = iter(parts), replace(options.tiling, size=size)
-    every = [MappedPart(one, skipped=one.reason) if one.structure is None else next(made) for one in solved.components]
-    return MappedObject(solved, replace(options, tiling=tiling), tuple(every))
+def _with_parts(wanted, parts, size):
+    """The same object with these of the `done` components, and the parts that have no structure."""
+    made, components = iter(parts), wanted.solved.components
+    every = [MappedPart(one, skipped=one.reason) if one.structure is None else next(made) for one in components]
+    return replace(wanted, request=replace(wanted.request, size=size), parts=tuple(every))
 
 
 def _of_one_length(made):
@@ -254,67 +195,43 @@ def _of_one_length(made):
     each object has room."""
     found = [one for one in made if one.done]
     maps = [one.part_maps for one in found]
-    per_length = holomorph.arrangement.common_length(maps, found[0].options.arrangement) if found else 0.0
-    return [replace(one, options=replace(one.options, per_length=per_length)) for one in made]
+    per_length = holomorph.arrangement.common_length(maps, found[0].arrangement) if found else 0.0
+    return [replace(one, arrangement=replace(one.arrangement, per_length=per_length)) for one in made]
 
 
-def _made(solved, options, progress):
-    """[(the `MappedPart`s of the `done` components, the size with which they are the same alone)] of each solve.
+def _made(objects, progress):
+    """[(the `MappedPart`s of the `done` components, the size with which they are the same alone)] of each object.
     Refusals are told. What no tiling fits gets another map, if what is chosen fits anywhere."""
-    wanted, maps = options[0].tiling, holomorph.maps
-    requests = [_requests(one.done, own) for one, own in zip(solved, options)]
-    size = wanted.size and maps.size.SizePolicy(*wanted.size)
-    if not size:
-        surfaces = [part.surface for one in solved for part in one.done]
-        tiles = None if wanted.density else wanted.tiles or None
-        size = maps.size.SizePolicy.of(surfaces, tiles, wanted.density or None)
-    found = maps.map_objects.map_objects(requests, size, progress=progress)
-    each = zip(solved, requests, options, found)
-    return [(_parts(one.done, asked, own, made), astuple(size)) for one, asked, own, (made, size) in each]
+    asked = [[_asked(one.request, part) for part in one.solved.done] for one in objects]
+    size = objects[0].request.size_of([surface for parts in asked for _, surface, _ in parts])
+    found = holomorph.maps.map_objects.map_objects(asked, size, progress=progress)
+    return [(_parts(*each, made), own_size) for *each, (made, own_size) in zip(objects, asked, found)]
 
 
-def _requests(components, options):
-    """The `holomorph.maps.request.Request`s for parts."""
-    wanted = options.tiling
-    asked = holomorph.maps.request.MeshRequest(
-        main=options.package_main,
-        poles=wanted.poles,
-        allowed=None if wanted.allowed is None else np.frombuffer(wanted.allowed, bool),
-        moves=wanted.moved,
-        cones=dict(wanted.cones),
-        marked=None if wanted.marked is None else np.frombuffer(wanted.marked, np.int64).reshape(-1, 2),
-        direction=wanted.direction,
-        evenness=wanted.evenness,
-        options={name: getattr(wanted, name) for name in ("lattice", "boundary", "turns", "lines")}
-        | {"turn": wanted.turn or None},
-    )
-    return [_with_points(asked.of_structure(part)) for part in components]
+def _asked(request, part):
+    """(request, surface, structure) of a `PartStructure`: a tiling where points are chosen on it, and one with poles
+    does not turn; the balanced map where a structure was chosen, or there is no area."""
+    own = request.on_part(part.surface)
+    if own.main == "automatic" and (part.is_chosen or not part.surface.area > 0):
+        own = replace(own, main="balanced")
+    elif own.main != "balanced" and own.has_points:
+        own = replace(own, main="seamless", **{"poles": "auto", "moves": {}} if own.cones else {"turns": 1})
+    return own, part.surface, part.structure
 
 
-def _with_points(request):
-    """The request for a part: a tiling where points are chosen on it. One with poles does not turn."""
-    options = request.options
-    has_cones, is_open = bool(options["cones"]), isinstance(request.poles, (str, numbers.Real))
-    if request.main == "balanced" or (is_open and not options["moves"] and not has_cones):
-        return request
-    if has_cones:
-        return replace(request, main="seamless", poles="auto", options={**options, "moves": {}})
-    return replace(request, main="seamless", options={**options, "turns": 1})
-
-
-def _parts(components, requests, options, made):
+def _parts(one, asked, made):
     """The `MappedPart`s of one object."""
-    reasons = [native.sentence(one) if isinstance(one, Exception) else "" for one in made]
-    if options.main == SEAMLESS and options.tiling.is_chosen and all(reasons):
-        return [MappedPart(component, skipped=reason) for component, reason in zip(components, reasons)]
-    return [_part(*each) for each in zip(components, requests, made, reasons)]
+    reasons, done = [native.sentence(each) if isinstance(each, Exception) else "" for each in made], one.solved.done
+    if one.main == SEAMLESS and one.request.is_chosen and all(reasons):
+        return [MappedPart(component, skipped=reason) for component, reason in zip(done, reasons)]
+    return [_part(*each) for each in zip(done, asked, made, reasons)]
 
 
-def _part(component, request, made, refusal):
+def _part(component, asked, made, refusal):
     """With another map than a tiling that is refused."""
+    request, *given = asked
     if refusal and request.main == "balanced":
         return MappedPart(component, skipped=refusal)
     if refusal:
-        given = request.surface, request.structure
         made = holomorph.automatic_map(*given, main="untiled", evenness=request.evenness)
     return MappedPart(component, made, not_seamless=refusal)

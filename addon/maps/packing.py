@@ -17,21 +17,21 @@ MIDDLE = 0.5  # the middle of the UV square
 
 def packed(context, mapped):
     """The `mapped.MappedObject` with its islands as Blender packs them, all by the same factor, and the density that
-    its map has. They fill the UV square, unless the options say a density, and stay upright where they are to be so."""
-    options, parts = mapped.options, [part.surface for part in mapped.solved.done]
-    _, shelves = next(replace(mapped, options=replace(options, density=1.0, per_length=0.0)).maps())
+    its map has. They fill the UV square, unless a density is arranged, and stay upright where they are to be so."""
+    arrangement, parts = mapped.arrangement, [part.surface for part in mapped.solved.done]
+    _, shelves = next(replace(mapped, arrangement=replace(arrangement, density=1.0, per_length=0.0)).maps())
     corners, side_by_side = np.concatenate([part.corner_index for part in parts]), joined(parts)
     with mesh_of(context, side_by_side) as mesh:
         uv_maps.write_map(mesh, side_by_side, uv_maps.MAIN_MAP, shelves[corners])
-        margin = holomorph.layout.fitting_margin(options.margin, len(parts))
-        pack(context, margin, rotate=options.tiling.direction is None)
+        margin = holomorph.layout.fitting_margin(arrangement.margin, len(parts))
+        pack(context, margin, rotate=mapped.request.direction is None)
         found = uv_maps.read_map(mesh, uv_maps.MAIN_MAP)
-    square = holomorph.arrangement.square(mapped.part_maps, options.arrangement)
+    square = holomorph.arrangement.square(mapped.part_maps, arrangement)
     filling = square.filling * _length(parts, found) / _length(parts, shelves[corners])
-    options = replace(options, per_length=options.per_length or filling)
+    arrangement = replace(arrangement, per_length=arrangement.per_length or filling)
     result = np.zeros_like(shelves)
-    result[corners] = MIDDLE + options.density * options.per_length / filling * (found - MIDDLE)
-    return replace(mapped, options=options, packed=result)
+    result[corners] = MIDDLE + arrangement.density * arrangement.per_length / filling * (found - MIDDLE)
+    return replace(mapped, arrangement=arrangement, packed=result)
 
 
 def cuts(parts):

@@ -30,22 +30,20 @@ class Session:
         other = stored.parsed(text).get("scale_of")
         if other:
             raise ValueError(f"{obj.name}: drag the points on {other}: its mesh was tiled in the scale of that object")
-        dials = request.Values(**stored_dials.of(obj))
-        self.target, self._map = targets.collect([obj], request.choices(dials))[0], uv_maps.main_map(obj.data)
+        dials = getattr(obj, stored_dials.NAME)
+        self.target, self._map = request.collect([obj], dials)[0], uv_maps.main_map(obj.data)
         if not text or self.target.refused or self._map not in obj.data.uv_layers:
             raise ValueError(f"{obj.name}: it has no map with points to drag; {AGAIN}")
         if stored.is_behind(stored.parsed(text), obj):
             raise ValueError(f"{obj.name}: its dials were changed since its map was made; {AGAIN}")
         own, _ = request.own_texture(dials)
-        self._options, self._write_options = request.Run(dials, [self.target], own, goes_on=True).only
-        self._asked = self._options.tiling
+        self._wanted, self._write_options = request.Run(dials, [self.target], own, goes_on=True).only
         tilings = stored.whole_tilings(text)
         self.are_cones, self._earlier = len(stored.cones(tilings)) > 0, request.moved_points(dials, self.target)
         self._count = points.asked_count(dials)
         self._task = targets.tasks([self.target])[0]
         self.mapped = None
-        self.mapped = self._first = self.made({})
-        self._asked = self._first.options.tiling
+        self.mapped = self._first = self._wanted = self.made({})
         if not self._tiled(self.mapped):
             reasons = [part.skipped or part.not_seamless for part in self.mapped.parts]
             raise ValueError(f"{obj.name}: {'; '.join(filter(None, reasons))}")
@@ -55,13 +53,13 @@ class Session:
         self._uv, self._is_shown = uv_maps.read_map(obj.data, self._map), False
         self._parts = [part.component.surface.vertex_index for part in self._tiled(self.mapped)]
         self._boundary = np.concatenate([self._boundary_of(part) for part in self._tiled(self.mapped)])
-        self.allowed = None if self._asked.allowed is None else np.frombuffer(self._asked.allowed, bool)
+        self.allowed = self._wanted.request.allowed
 
     @property
     def poles(self):
         """(n,) vertices of the object, where they are now; or the cones of a map that turns."""
         if self.are_cones and self.mapped is not self._first:
-            return np.array([vertex for vertex, _ in self.mapped.options.tiling.cones])
+            return np.array([*self.mapped.request.cones])
         return np.concatenate([part.vertices(own) for part, own in zip(self._tiled(self.mapped), self._own)])
 
     @staticmethod
@@ -105,22 +103,24 @@ class Session:
     def job(self, moves):
         """A `jobs.Job` that makes the tiling with poles at other vertices, {pole: vertex}; what was dragged in an
         earlier session stays there."""
-        asked = replace(self._asked, **self._moved(moves)) if moves else self._asked
-        return jobs.Job([self._task], then=mapped.follow([replace(self._options, tiling=asked)]))
+        wanted = self._moved(moves) if moves else self._wanted
+        return jobs.Job([self._task], then=mapped.follow([wanted]))
 
     def _moved(self, moves):
-        """The fields of `TileOptions` with these moves."""
+        """The `mapped.MappedObject` that is wanted with these moves."""
+        request = self._wanted.request
         if not self.are_cones:
-            return {"moved": self._earlier_and(moves), "points": ()}
+            return replace(self._wanted, request=replace(request, moves=self._earlier_and(moves)), points=())
         places = np.concatenate([part.vertices(own) for part, own in zip(self._tiled(self._first), self._own)])
         places[list(moves)] = list(moves.values())
         angles = np.concatenate([part.tiling.cone_angles for part in self._tiled(self._first)])
-        return {"cones": tuple(zip(places.tolist(), angles.tolist())), "lines": "automatic", "marked": None}
+        cones = dict(zip(places.tolist(), angles.tolist()))
+        return replace(self._wanted, request=replace(request, cones=cones, lines="automatic", marked=None))
 
     def _earlier_and(self, moves):
         """((index in its part, vertex), ...): an earlier move of a pole gives way to a new one."""
         new = {self.place(pole): vertex for pole, vertex in moves.items()}
-        for index, vertex in self._asked.moved:
+        for index, vertex in self._wanted.request.moves:
             (part,) = (number for number, own in enumerate(self._parts) if vertex in own)
             new.setdefault((part, index), vertex)
         return tuple((index, vertex) for (_, index), vertex in new.items())
@@ -173,12 +173,12 @@ class Session:
     @property
     def _points(self):
         """The `points.Points` of the map as it is now; those on maps with other turns stay."""
-        asked = self.mapped.options.tiling
+        asked = self.mapped.request
         earlier = self._earlier or points.Points(len(self.target.find().data.vertices), self._count)
         if self.are_cones:
-            return replace(earlier, cones=asked.cones)
+            return replace(earlier, cones=tuple((asked.cones or {}).items()))
         base = asked.poles if isinstance(asked.poles, tuple) else ()
-        moved = {*base, *(vertex for _, vertex in asked.moved)}
+        moved = {*base, *(vertex for _, vertex in asked.moves)}
         now = [part.vertices(part.tiling.poles).tolist() for part in self._tiled(self.mapped)]
         poles = [own for own, part in zip(now, self._parts) if not moved.isdisjoint(part.tolist())]
-        return replace(earlier, poles=tuple(chain(*poles)), base=base, moves=asked.moved)
+        return replace(earlier, poles=tuple(chain(*poles)), base=base, moves=asked.moves)

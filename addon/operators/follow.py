@@ -48,13 +48,12 @@ class _Making:
     """The map of the dials of an object, while it is made. @throws ValueError it cannot be"""
 
     def __init__(self, obj):
-        from ..scene import targets
         from . import request
 
-        dials = request.Values(**stored_dials.of(obj))
+        dials = getattr(obj, stored_dials.NAME)
         self._name, self._is_shown = obj.name, dials.checker
         own, self._why_not_own = request.own_texture(dials)
-        self._run = request.Run(dials, targets.collect([obj], request.choices(dials)), own, goes_on=True)
+        self._run = request.Run(dials, request.collect([obj], dials), own, goes_on=True)
         self.job = self._run.job()
 
     def write(self, context, time_has_passed):

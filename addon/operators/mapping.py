@@ -17,13 +17,13 @@ class _MapsOperator(Dials, OfOneRun, OnMeshes, WorkOperator):
     asked = {}
 
     def prepare(self, context):
-        from ..scene import gathering, targets
+        from ..scene import gathering
         from . import request
 
         objects = gathering.mesh_objects(context)
         self._start_with(stored_dials.of(objects[0]) | self.asked)
         self._own, self._why_not_own = request.own_texture(self)
-        found = targets.collect(objects, request.choices(self))
+        found = request.collect(objects, self)
         self._run = request.Run(self, found, self._own, self.is_trial)
         self.is_trial = False  # what the redo panel asks for later is written in any case
 

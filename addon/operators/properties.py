@@ -6,7 +6,7 @@ import math
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 HARD_EDGE = math.radians(40)
-EVENNESS = 0.5  # as `mapped.TileOptions`, which needs NumPy
+EVENNESS = 0.5  # as the package's `Request`, which needs NumPy
 MOST_POLES = 16
 ONCE = {"SKIP_SAVE"}  # options of properties that Blender does not remember for the next run
 

@@ -3,20 +3,18 @@
 
 import math
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 
 from .. import native
 from ..maps import mapped
-from ..maps.mapped import BALANCED, ISLANDS, SEAMLESS, MapOptions, TileOptions
+from ..maps.mapped import BALANCED, ISLANDS, SEAMLESS, Arrangement, MappedObject, Request
 from ..materials import material, textures, user_texture
 from ..materials.user_texture import AUTOMATIC, IMAGE, MATERIAL
 from ..results import advice, points, report, stored, symmetric, write
 from ..results.write import WriteOptions
 from ..scene import gathering, mesh_io, stored_dials, targets
 from ..solving import jobs
-from ..solving.jobs import Choices
 
 FACES = {"AUTOMATIC": jobs.SELECTED, "FACES": jobs.ASKED}  # by the use of the selection
 AXES = "XYZ"
@@ -46,7 +44,7 @@ class Run:
     """What dials ask for of these `targets.Target`s: a request, the solves, the maps, writing, the report.
     @throws ValueError there is nothing of what is asked for on one of them
 
-    dials : an object with the dials: an operator, or a `Values`
+    dials : an operator, or the dials that an object stores
     own : the `user_texture.Own` that is their texture, None for one of ours
     is_trial : whether maps that cost an eye no less than those of before are not written
     goes_on : whether tiles keep the size that they have on several objects
@@ -56,11 +54,11 @@ class Run:
         self.tasks, self._found, self._is_equal = targets.tasks(found), found, dials.equal
         self._is_trial = is_trial
         own = own and symmetric.as_before(own, self.objects)
-        self._options = [_options(dials, target, own) for target in found if not target.refused]
+        self._wanted = [_wanted(dials, target, own) for target in found if not target.refused]
         self._write_options = _write_options(dials, own, len(self.tasks) if self._is_equal else 1)
         if goes_on:
             self._go_on()
-        turns = {one.tiling.turns for one in self._options}
+        turns = {one.request.turns for one in self._wanted}
         self._notes = [_why_seams(self._write_options.texture, own, k) for k in turns]
 
     def _go_on(self):
@@ -70,20 +68,20 @@ class Run:
         text = target.find().get(report.PROPERTY)
         before, asked = stored.parsed(text).get("dials", {}), stored.asked(text)
         made, together = before.get("stored") or {}, before.get("together", 1)
-        if together > 1 and asked and self._options and all(made.get(name) == stored_now[name] for name in OF_SIZE):
-            (options,) = self._options
-            self._options = [replace(options, tiling=replace(options.tiling, size=asked.size))]
+        if together > 1 and asked and self._wanted and all(made.get(name) == stored_now[name] for name in OF_SIZE):
+            (wanted,) = self._wanted
+            self._wanted = [replace(wanted, request=replace(wanted.request, size=asked.size))]
             self._write_options = replace(self._write_options, together=together)
 
     def job(self, progress=None):
         """The `jobs.Job` that solves and maps."""
-        return jobs.Job(self.tasks, progress, mapped.follow(self._options, self._is_equal))
+        return jobs.Job(self.tasks, progress, mapped.follow(self._wanted, self._is_equal))
 
     @property
     def only(self):
-        """(`mapped.MapOptions`, `write.WriteOptions`) of a run of one object."""
-        (options,) = self._options
-        return options, self._write_options
+        """(`mapped.MappedObject` that is wanted, `write.WriteOptions`) of a run of one object."""
+        (wanted,) = self._wanted
+        return wanted, self._write_options
 
     @property
     def objects(self):
@@ -100,28 +98,23 @@ class Run:
         return outcome
 
 
-class Values(SimpleNamespace):
-    """The dials of an object, as a run takes them where nothing is selected for it."""
-
-    use_selection, residues = "NONE", ""
-
-
-def choices(dials):
-    """The `jobs.Choices`. @throws ValueError residues that are not numbers"""
-    are_islands, use = dials.main == ISLANDS, "NONE" if dials.main == SEAMLESS else dials.use_selection
+def collect(objects, dials):
+    """The `targets.Target`s of objects, with what is chosen on them. @throws ValueError residues that are not numbers,
+    or there are none of the faces that are asked for"""
+    use = "NONE" if dials.main == SEAMLESS else getattr(dials, "use_selection", "NONE")
+    are_islands = dials.main == ISLANDS
     is_taken = not are_islands and (dials.poles == "SELECTED" or dials.direction == "EDGES")
     faces = jobs.SELECTED if dials.main == SEAMLESS else FACES.get(use, jobs.WHOLE)
-    return Choices(
+    asked = jobs.Choices(
         use=jobs.NONE if use == "FACES" or is_taken else use,
-        faces=jobs.WHOLE if is_taken else faces,
-        residues=jobs.numbers(dials.residues),
-        cut_at_seams=dials.main != SEAMLESS and (dials.cut_at_seams or are_islands),
+        residues=jobs.numbers(getattr(dials, "residues", "")),
         are_islands=are_islands,
         solver=dials.solver,
-        modifiers=dials.modifiers,
         hard_edges=math.degrees(dials.hard_edges) if are_islands else 0.0,
         most_stretch=dials.most_stretch if are_islands else 0.0,
     )
+    at_seams = dials.main != SEAMLESS and (dials.cut_at_seams or are_islands)
+    return targets.collect(objects, asked, jobs.WHOLE if is_taken else faces, dials.modifiers, at_seams)
 
 
 def own_texture(dials):
@@ -132,43 +125,38 @@ def own_texture(dials):
         return None, native.sentence(error)
 
 
-def _options(dials, target, own):
-    """The `mapped.MapOptions` for a `targets.Target` with its selection."""
+def _wanted(dials, target, own):
+    """The `mapped.MappedObject` that is wanted for a `targets.Target` with its selection."""
     if dials.main in (BALANCED, ISLANDS):
-        tiling = TileOptions(density=_density(dials.size, 1), evenness=dials.evenness)
+        request, quarters = Request("balanced", density=_density(dials.size, 1), evenness=dials.evenness), 0
     else:
-        tiling = _turned(dials, target, own, _tiling(dials, target, own))
-    return MapOptions(
-        0 if dials.main == SEAMLESS else dials.forms,
-        dials.density,
-        dials.rotation,
-        dials.margin,
-        dials.main,
-        tiling=tiling,
-    )
+        request, quarters = _tiling(dials, target, own)
+    arrangement = Arrangement(dials.density, dials.rotation, dials.margin, quarters=quarters)
+    wanted = MappedObject(request, arrangement, dials.main, 0 if dials.main == SEAMLESS else dials.forms)
+    return wanted if dials.main in (BALANCED, ISLANDS) else _turned(dials, target, own, wanted)
 
 
 def _tiling(dials, target, own):
-    """The `mapped.TileOptions` of a map that does not turn."""
+    """The `holomorph.tiling.request.Request` for a map that does not turn; its turns by 90 degrees after it is made."""
     obj = target.find()
     if target.makes_object and _are_on_the_mesh(dials):
         raise ValueError(f"{obj.name}: select poles and edges on the mesh itself, not on the result of its modifiers")
     lattice = "square" if dials.lattice == AUTOMATIC else dials.lattice
     lattice = lattice if own is None else own.lattice
     quarters = dials.quarters if lattice in QUARTERED else 0
-    return TileOptions(
-        tiles=0.0 if dials.size else float(dials.tiles),
+    request = Request(
+        dials.main.lower() if dials.density == 1 or dials.main == SEAMLESS else "balanced",
+        tiles=None if dials.size else dials.tiles or None,
         density=_density(dials.size, dials.repeats),
         poles=_poles(dials, obj),
         lattice=lattice,
         direction=_direction(dials, obj),
         boundary=dials.boundary,
-        turn=(dials.quarters - quarters) * math.pi / 2 + dials.rotation,
-        quarters=quarters,
-        pole_group=dials.pole_group,
+        turn=(dials.quarters - quarters) * math.pi / 2 + dials.rotation or None,
         allowed=allowed(dials.pole_group, obj),
         evenness=dials.evenness,
     )
+    return request, quarters
 
 
 def moved_points(dials, target):
@@ -176,30 +164,32 @@ def moved_points(dials, target):
     if target.makes_object or dials.poles in points.BY_SELECTION:
         return None
     obj = target.find()
-    return points.of(stored_dials.of(obj)[stored_dials.MOVED], dials, obj.data)
+    text = stored_dials.of(obj)[stored_dials.MOVED]
+    return points.of(text, dials, obj.data) if text else None
 
 
-def _turned(dials, target, own, tiling):
-    """The `TileOptions` with the turns that are asked for; of the texture, where nothing is chosen that they exclude.
-    @throws ValueError something is"""
+def _turned(dials, target, own, wanted):
+    """The same with the points that were moved, and with the turns that are asked for; of the texture, where nothing is
+    chosen that they exclude. @throws ValueError something is"""
     texture = material.CHECKER if dials.texture in (IMAGE, MATERIAL) and own is None else dials.texture
     turns = TURNS.get(dials.turns) or (material.turns(texture, own) if _follows_texture(dials, target) else 1)
-    moved, is_open = moved_points(dials, target), dials.turns not in TURNS
-    shifted = replace(tiling, **moved.asked(1, is_open)) if moved else tiling
+    moved, is_open, request = moved_points(dials, target), dials.turns not in TURNS, wanted.request
+    shifted = moved.on(wanted, 1, is_open) if moved else wanted
     if turns == 1:
         return shifted
     lattice, name = TURNED[turns]
     excluded = {
-        "Points": dials.poles != "AUTOMATIC" or tiling.allowed is not None,
+        "Points": dials.poles != "AUTOMATIC" or request.allowed is not None,
         "Pattern": dials.lattice not in (AUTOMATIC, lattice),
-        "Rotation": tiling.turn != 0,
-        "Borders": tiling.boundary == "straight",
+        "Rotation": request.turn is not None,
+        "Borders": request.boundary == "straight",
     }
     chosen = [dial for dial, is_chosen in excluded.items() if is_chosen]
     if not chosen:
-        asked = moved.asked(turns, is_open) if moved else {}
-        asked |= {} if "cones" in asked else lines(ROWS[dials.rows], target, turns)
-        return replace(tiling, turns=turns, lattice=lattice, boundary="automatic", **asked)
+        turned = replace(wanted, request=replace(request, turns=turns, lattice=lattice, boundary="automatic"))
+        turned = moved.on(turned, turns, is_open) if moved else turned
+        rows = {} if turned.request.cones else lines(ROWS[dials.rows], target, turns)
+        return replace(turned, request=replace(turned.request, **rows))
     if is_open:
         return shifted
     raise ValueError(
@@ -208,11 +198,11 @@ def _turned(dials, target, own, tiling):
 
 
 def lines(asked, target, turns):
-    """The fields of `TileOptions` that say where rows end: at hard edges, and at those that are marked sharp."""
+    """The fields of a `Request` that say where rows end: at hard edges, and at those that are marked sharp."""
     if turns not in LINED:
         return {"lines": "automatic"}
     is_marked = asked != "none" and len(target.sharp)
-    return {"lines": asked, "marked": target.sharp.astype(np.int64).tobytes() if is_marked else None}
+    return {"lines": asked, "marked": target.sharp if is_marked else None}
 
 
 def _follows_texture(dials, target):
@@ -232,7 +222,7 @@ def _why_seams(texture, own, turns):
 def _why_no_rows(found, results):
     """What is told of objects whose rows do not lie at edges, as was asked."""
     for target, made in zip(found, results):
-        asked = made.options.tiling.lines if isinstance(made, mapped.MappedObject) else "none"
+        asked = made.request.lines if isinstance(made, MappedObject) else "none"
         tilings = [part.tiling for part in made.tiled if part.tiling] if asked not in ("automatic", "none") else []
         if any(tiling.turns != 1 and tiling.lines == "none" for tiling in tilings):
             yield f"{target.name}: {NO_ROWS[asked]}"
@@ -240,8 +230,8 @@ def _why_no_rows(found, results):
 
 def _density(size, repeats):
     """The UV area over the area of the surface, for images of the texture of a width, of which `repeats` lie side by
-    side in a UV unit; 0 where no size is asked for."""
-    return 1 / (size * repeats) ** 2 if size else 0.0
+    side in a UV unit; None where no size is asked for."""
+    return 1 / (size * repeats) ** 2 if size else None
 
 
 def _write_options(dials, own, together):
@@ -286,7 +276,7 @@ def _poles_where_coarse(obj):
 
 
 def allowed(name, obj):
-    """Where poles may be, see `mapped.TileOptions`: where the group's weight is above `ALLOWING`."""
+    """Where poles may be: where the group's weight is above `ALLOWING`; None for anywhere."""
     if not name:
         return None
     group = obj.vertex_groups.get(name)
@@ -295,11 +285,11 @@ def allowed(name, obj):
     mask = mesh_io.weights(obj.data, group.index) > ALLOWING
     if not mask.any():
         raise ValueError(f"{obj.name}: no vertex has a weight above {ALLOWING} in {name!r}")
-    return mask.tobytes()
+    return mask
 
 
 def _direction(dials, obj):
-    """The direction of `mapped.TileOptions`, in the frame of the polygons: as the object stands in space, without its
+    """The direction of a `Request`, in the frame of the polygons: as the object stands in space, without its
     translation."""
     if dials.direction in ("NONE", "UPRIGHT"):
         return None if dials.direction == "NONE" else "upright"

@@ -25,9 +25,9 @@ class _TexelOperator(AtOnce):
 
     def read(self, _context, objects):
         from ..scene import targets
-        from ..solving.jobs import SELECTED, Choices
+        from ..solving.jobs import SELECTED
 
-        self._found = targets.collect(objects, Choices(faces=SELECTED))
+        self._found = targets.collect(objects, faces=SELECTED)
         return targets.objects(self._found)
 
     def act(self, step, _objects):

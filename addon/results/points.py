@@ -3,7 +3,7 @@
 
 import functools
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -38,18 +38,18 @@ class Points:
         """As a dial of the object."""
         return json.dumps(asdict(self))
 
-    def asked(self, turns, is_open):
-        """The fields of `mapped.TileOptions` on a map whose sides turn by this part of a full turn.
+    def on(self, wanted, turns, is_open):
+        """The `mapped.MappedObject` that is wanted with these, on a map whose sides turn by this part of a full turn.
 
         is_open : whether parts on which poles were moved need not turn
         """
         fields, angles = {}, turns * np.array([angle for _, angle in self.cones])
-        if turns != 1 and np.all(np.abs(angles - np.round(angles)) < ROUNDING):
-            fields["cones"] = self.cones
+        if self.cones and turns != 1 and np.all(np.abs(angles - np.round(angles)) < ROUNDING):
+            fields["cones"] = dict(self.cones)
         if self.poles and (turns == 1 or is_open):
-            fields |= {"moved": self.moves, "points": self.poles}
-            fields |= {"poles": self.base} if self.base else {}
-        return fields
+            fields |= {"moves": self.moves, "poles": self.base or wanted.request.poles}
+            wanted = replace(wanted, points=self.poles)
+        return replace(wanted, request=replace(wanted.request, **fields))
 
 
 @functools.lru_cache(maxsize=1)
@@ -66,7 +66,7 @@ def _shape():
 def of(text, dials, mesh):
     """The `Points` in the dial of an object; None where they do not count, or what is there is none."""
     try:
-        values = json.loads(text) if text else None
+        values = json.loads(text)
     except (ValueError, RecursionError):
         return None
     if not shape.fits(values, _shape()):
@@ -86,7 +86,7 @@ def kept(stored, made, mesh):
     """The dials that an object stores of a `mapped.MappedObject`: points of one run are moved ones from then on."""
     if stored.get("poles") not in BY_SELECTION:
         return stored
-    chosen = made.options.tiling.poles
+    chosen = made.request.poles
     chosen = chosen if isinstance(chosen, tuple) else ()
     text = Points(len(mesh.vertices), -1, poles=chosen, base=chosen).text if chosen else ""
     return stored | {"poles": "AUTOMATIC", MOVED: text}

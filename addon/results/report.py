@@ -25,9 +25,8 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
     """One object: its maps as written, the options with which they were, and the report of each part."""
     solved = made.solved
     given = [(one.component.surface, one.map, one.skipped, one.component.note) for one in made.parts]
-    about = holomorph.report.parts_report(given, solved.surface.refused, _repairs(solved), made.options.arrangement)
-    dials = asdict(made.options)
-    asked = dials.pop("tiling")
+    about = holomorph.report.parts_report(given, solved.surface.refused, _repairs(solved), made.arrangement)
+    dials, asked = {"forms": made.forms, "main": made.main, **asdict(made.arrangement)}, asdict(made.request)
     del asked["allowed"], asked["marked"]  # a vertex group and the marks of the object say them
     return {
         "object": obj.name,
@@ -39,7 +38,7 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
         "done": bool(made.done),
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
         "dials": dials | (asdict(write_options) if write_options else {}),
-        "asked": asked,
+        "asked": holomorph.core.value.plain(asked),
         "seams_added": new_seams,
         **about,
         "seconds": solved.seconds,

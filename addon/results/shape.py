@@ -111,19 +111,7 @@ def report():
         "stored": (ABSENT, None, dict),
         "together": (ABSENT, count),
     }
-    asked = {
-        **dict.fromkeys(("tiles", "density", "turn", "evenness"), number),
-        "size": (row(), row(number, count, (None, number), (None, pair), number)),
-        "poles": ("auto", count, [count]),
-        "lattice": lattice,
-        "direction": ("upright", None, row(number, number, number)),
-        **dict.fromkeys(("boundary", "lines", "pole_group"), str),
-        "quarters": count,
-        "turns": turns,
-        "cones": [row(count, number)],
-        "moved": [row(count, count)],
-        "points": (ABSENT, [count]),
-    }
+    size = row(number, count, (None, number), (None, pair), number)
     return {
         "verdict": verdict,
         "bake": verdict,
@@ -137,7 +125,7 @@ def report():
         "repairs": {"joined_vertices": {"count": count}, "cuts": [{"text": words}]},
         "components": [(done, {"done": False, **surface}, {"done": False, "genus": ABSENT})],
         "dials": dials,
-        "asked": (ABSENT, asked),
+        "asked": (ABSENT, {"size": size, "lattice": lattice}),
         "coarse_places": (ABSENT, [{"name": str, "vertex": count, "times": number}]),
         "scale_of": (ABSENT, str),
     }

@@ -4,12 +4,11 @@
 import functools
 import json
 import math
-from dataclasses import fields
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
 
-from ..maps.mapped import TileOptions
 from ..native import holomorph
 from ..scene import mesh_io, stored_dials
 from . import shape
@@ -91,11 +90,9 @@ def _point_count(found):
 
 
 def asked(stored):
-    """The `mapped.TileOptions` that a tiling was made with, but for where its poles may be; None where there are
-    none."""
+    """What a map was asked for, in the fields of a `Request`; None where it is not told."""
     values = parsed(stored).get("asked")
-    known = [one.name for one in fields(TileOptions) if one.name in (values or {})]
-    return None if values is None else TileOptions(**{name: shape.as_tuple(values[name]) for name in known})
+    return values and SimpleNamespace(**{name: shape.as_tuple(value) for name, value in values.items()})
 
 
 def verdicts(entry):

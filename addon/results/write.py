@@ -81,7 +81,7 @@ def _write_object(step, outcome, target, made, options):
     if target.makes_object:
         obj = tags.modifier_result(step, obj)
         outcome.objects.append(obj)
-    if made.options.main == mapped.ISLANDS:
+    if made.main == mapped.ISLANDS:
         made = packing.packed(step.context, made)
     restore.remember(obj.data)
     written, new_seams = _write_maps(obj.data, polygons, made, options)

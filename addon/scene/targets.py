@@ -52,15 +52,20 @@ class Target:
         return has_faces and read(obj, self.mask).equals(self.polygons)
 
 
-def collect(objects, asked=EVERYTHING):
+def collect(objects, asked=EVERYTHING, faces=jobs.WHOLE, modifiers=False, at_seams=False):
     """Reads the polygons and the choices of every object; of those that share a mesh, the first one counts.
-    @throws ValueError there are none of the faces that are asked for"""
+    @throws ValueError there are none of the faces that are asked for
+
+    asked : what is chosen on each of them, without its vertices and edges
+    faces : which ones are mapped; modifiers : whether they count, in object mode
+    at_seams : whether the marked seams are those of the choices
+    """
     _write_pending_edits(objects)
-    masks = _masks(objects, asked.faces)
+    masks = _masks(objects, faces)
     targets, first = {}, {}  # by object; the object that counts by mesh
     for obj in (o for o in objects if o.data in masks):
         other = first.get(obj.data)
-        target = _target(obj, masks[obj.data], asked) if other is None or asked.modifiers else None
+        target = _target(obj, masks[obj.data], asked, modifiers, at_seams) if other is None or modifiers else None
         if target is None or (other is not None and not target.makes_object):
             targets[other] = replace(targets[other], sharers=(*targets[other].sharers, obj.name))
             continue
@@ -112,7 +117,7 @@ def _flags(mesh, name):
     return mesh_io.read_values(Values(mesh.polygons, name, bool))
 
 
-def _target(obj, mask, asked):
+def _target(obj, mask, asked, modifiers, at_seams):
     library = obj.library.filepath if obj.library else None
     target = Target(obj.name, library, None, mask=mask)
     reason = _why_refused(obj, mask, asked)
@@ -120,13 +125,13 @@ def _target(obj, mask, asked):
         return replace(target, refused=reason)
     own, sharp = read(obj, mask), mesh_io.marked_edges(obj.data, mesh_io.SHARP)
     target = replace(target, sharp=sharp)
-    if asked.modifiers and obj.mode == "OBJECT":
-        return _with_modifiers(replace(target, modifiers=True), obj, own, asked)
+    if modifiers and obj.mode == "OBJECT":
+        return _with_modifiers(replace(target, modifiers=True), obj, own, asked, at_seams)
     modifier = "" if own.face_count else first_modifier(obj)
     if modifier and mesh_io.read_shown(obj, gathering.linear(obj), own)[0].face_count:
         sentence = f"all its faces come from its modifiers ({modifier}): switch With Modifiers on"
         return replace(target, refused=sentence)
-    return replace(target, polygons=own, chosen=_chosen(obj, asked))
+    return replace(target, polygons=own, chosen=_chosen(obj, asked, at_seams))
 
 
 def _why_refused(obj, mask, asked):
@@ -138,12 +143,14 @@ def _why_refused(obj, mask, asked):
     return gathering.why_fixed(obj)
 
 
-def _with_modifiers(target, obj, own, asked):
+def _with_modifiers(target, obj, own, asked, at_seams):
     """The target as its modifiers make it: its own polygons in other places, or other ones."""
     shown, seams, sharp, are_own = mesh_io.read_shown(obj, gathering.linear(obj), own)
     if target.mask is None and are_own:
-        return replace(target, polygons=replace(own, vertices=shown.vertices), chosen=_chosen(obj, asked))
-    return _of_modifiers(replace(target, sharp=sharp), asked, shown, seams, first_modifier(obj))
+        chosen = _chosen(obj, asked, at_seams)
+        return replace(target, polygons=replace(own, vertices=shown.vertices), chosen=chosen)
+    cuts = seams if at_seams else jobs.NO_EDGES
+    return _of_modifiers(replace(target, sharp=sharp), asked, shown, cuts, first_modifier(obj))
 
 
 def _of_modifiers(target, asked, shown, seams, modifier):
@@ -152,7 +159,7 @@ def _of_modifiers(target, asked, shown, seams, modifier):
         return replace(target, refused=f"its modifiers leave no faces; the first is {modifier}")
     if target.mask is not None or asked.is_explicit:
         return replace(target, refused="the selection is on the mesh itself, not on the result of its modifiers")
-    chosen = replace(asked, use=jobs.NONE, seams=seams if asked.cut_at_seams else jobs.NO_EDGES)
+    chosen = replace(asked, use=jobs.NONE, seams=seams)
     note = f"{target.name}: the result of its modifiers is a new object; the original is hidden"
     return replace(target, polygons=shown, chosen=chosen, makes_object=True, note=note)
 
@@ -162,9 +169,9 @@ def first_modifier(obj):
     return next((repr(m.name) for m in obj.modifiers if m.show_viewport), "")
 
 
-def _chosen(obj, asked):
+def _chosen(obj, asked, at_seams):
     """The choices, with the vertices and edges of this object; @pre pending edits are written to the mesh."""
-    marks = [mesh_io.SEAM] * bool(asked.cut_at_seams) + [mesh_io.SHARP] * bool(asked.hard_edges)
+    marks = [mesh_io.SEAM] * at_seams + [mesh_io.SHARP] * bool(asked.hard_edges)
     vertices = _selected(obj, asked.use) if asked.vertices is None else asked.vertices
     return replace(asked, vertices=vertices, seams=mesh_io.marked_edges(obj.data, *marks))
 

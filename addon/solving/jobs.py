@@ -18,7 +18,7 @@ from ..native import holomorph, module
 structures = module("maps.chosen_structures")
 
 NONE, POLES, RECTANGLE = structures.NONE, structures.POLES, structures.RECTANGLE  # what the selection is
-AUTOMATIC, NO_EDGES = structures.AUTOMATIC, structures.NO_EDGES
+AUTOMATIC, NO_EDGES, Choices = structures.AUTOMATIC, structures.NO_EDGES, structures.Choices
 # Which faces are mapped: all; in edit mode the selected ones if there are any; these, or a refusal.
 WHOLE, SELECTED, ASKED = "WHOLE", "SELECTED", "ASKED"
 DOUBLE = 8  # bytes
@@ -28,15 +28,6 @@ KEPT_MAPS = 4  # maps kept for each object: the redo panel goes back and forth b
 # Solves, so that the dials of the redo panel cost one small matrix product and no solve: an object that was moved,
 # renamed, undone or reopened has the same, one that was edited has not.
 KEPT = module("core.newest").Kept(1_200_000_000)
-
-
-@dataclass(frozen=True)
-class Choices(structures.Choices):
-    """What is asked of every object of a run, and then, with its own vertices and seams, of each."""
-
-    cut_at_seams: bool = False
-    faces: str = WHOLE  # which ones are mapped
-    modifiers: bool = False  # whether they count, in object mode
 
 
 def numbers(text):
@@ -90,7 +81,7 @@ class SolvedObject:
     @cached_property
     def form_count(self):
         """The largest number of forms among the components."""
-        return max((c.form_count for c in self.done), default=0)
+        return max((c.structure.form_count for c in self.done), default=0)
 
     def keep_maps(self, asked, made):
         """Adds those of the `done` components, and drops the oldest beyond `KEPT_MAPS`."""
@@ -103,7 +94,7 @@ class SolvedObject:
         """About how many bytes are held: harmonic forms and potentials; of tilers also solvers; and maps."""
         has_tilings = any(part.tiling for parts, _ in self.maps.values() for part in parts)
         per_form, per_edge = (6, 4 + DOUBLES_OF_TILER) if has_tilings else (4, 4)
-        of_edges = sum((per_form * c.form_count + per_edge) * len(c.structure.edges) for c in self.done)
+        of_edges = sum((per_form * c.structure.form_count + per_edge) * len(c.structure.edges) for c in self.done)
         corners = sum(len(c.surface.corner_vertices) for c in self.done)
         return DOUBLE * (of_edges + len(self.maps) * DOUBLES_OF_MAP * corners)
 

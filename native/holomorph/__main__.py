@@ -15,9 +15,8 @@ from .commands.relief_command import relief
 from .core.value import plain, quoted
 from .files import formats, whole_file
 from .maps.report import part_count
-from .maps.request import EVENNESS, MAIN_MAPS
 from .mesh.checks import SOLVERS, check_options, check_thresholds
-from .tiling.turned import AUTO, AUTOMATIC, LINES, TURNS, checked_lines
+from .tiling.request import AUTO, AUTOMATIC, EVENNESS, LINES, MAIN_MAPS, TURNS, checked_lines
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3
 STANDARD_OUTPUT = "-"

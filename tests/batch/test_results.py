@@ -12,7 +12,7 @@ import pytest
 from batch_runs import BALANCED, outputs, run, torus_obj
 from holomorph.batch import picture
 from holomorph.files import formats, textures
-from holomorph.maps.request import EVENNESS
+from holomorph.tiling.request import EVENNESS
 
 EVERYTHING = """
 [maps]

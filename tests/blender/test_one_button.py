@@ -212,7 +212,7 @@ def test_refused_parts_are_told_and_keep_their_map(monkeypatch):
     made = search.map_objects
 
     def refuse(objects, size, **options):
-        if objects[0][0].main != "seamless":
+        if objects[0][0][0].main != "seamless":
             return made(objects, size, **options)
         return [search.MappedParts([library.TopologyError("too few tiles")], size)]
 

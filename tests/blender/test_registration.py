@@ -37,7 +37,7 @@ def test_the_solvers_are_those_of_the_library():
 
 
 def test_evenness_has_one_default():
-    default = module("maps.mapped").TileOptions.evenness
+    default = module("maps.mapped").Request.evenness
     for operator in (bpy.ops.uv.holomorphic_maps, bpy.ops.uv.holomorphic_tile):
         found = operator.get_rna_type().properties["evenness"]
         assert found.default == pytest.approx(default) and found.description  # single precision

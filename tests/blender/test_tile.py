@@ -43,9 +43,8 @@ def calls(monkeypatch):
     made = search.map_objects
 
     def noting(objects, size, **options):
-        for request in (request for parts in objects for request in parts):
-            asked = {"poles": request.poles, "direction": request.direction, "evenness": request.evenness}
-            noted.append({"tiles": size.density * request.surface.area, **request.options, **asked})
+        for request, surface, _ in (part for parts in objects for part in parts):
+            noted.append({**vars(request), "tiles": size[0] * surface.area})
         return made(objects, size, **options)
 
     monkeypatch.setattr(search, "map_objects", noting)

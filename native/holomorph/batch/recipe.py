@@ -14,10 +14,9 @@ import tomllib
 
 from ..core.value import quoted, shortened
 from ..files import formats, textures, whole_file
-from ..maps.request import EVENNESS, MAIN_MAPS
 from ..mesh.checks import SOLVERS, as_float
 from ..tiling import tilings
-from ..tiling.turned import AUTO, AUTOMATIC, LINED_TURNS, LINES, TURNS
+from ..tiling.request import AUTO, AUTOMATIC, EVENNESS, LINED_TURNS, LINES, MAIN_MAPS, TURNS
 from . import textured
 from .errors import UsageError
 

@@ -7,7 +7,7 @@ import numpy as np
 from ..files import textures
 from ..tiles.height_image import height_image
 from ..tiling.image_turns import image_turns
-from ..tiling.turned import AUTO, AUTOMATIC, LINED_TURNS
+from ..tiling.request import AUTO, AUTOMATIC, LINED_TURNS
 
 
 def symmetry(recipe):

@@ -15,13 +15,11 @@ from .. import _native
 from ..core import arrays
 from ..core.array_types import Integers, Progress, Reals
 from ..core.value import Solution, Value, counted
-from ..mesh.checks import real_number
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
-from ..tiling.options import part_of, tile_options
+from ..tiling.request import Request, asked_turns, part_of
 from ..tiling.tiling import Tiler
 from ..tiling.tilings import Poles, Tiling
-from ..tiling.turned import LATTICE, asked_turns, check_chosen, check_cones, check_fits, checked_lines
 from .solver_report import Residuals, SolverReport
 
 
@@ -167,26 +165,13 @@ class Structure(Value):
         Raises TopologyError for poles that do not fit, for fewer tiles than the surface needs (names how many are
         enough), and for more added distortion than `max_added` (names what can be had). Poles are kept.
         """
-        tiles = tiles if density is None else self._tiles_of(density, tiles)
-        turns = asked_turns(turns, texture)
-        lines = checked_lines(lines, turns)
-        check_chosen(marked, cones)
-        check_cones(cones, turns, lines)
-        if turns != 1:
-            chosen = {"poles": (poles, "auto", 0), "turn": (turn, 0.0), "boundary": (boundary, "automatic")}
-            chosen |= {"lattice": (lattice, "square", LATTICE.get(turns))}
-            check_fits(chosen | {"allowed": (allowed,), "moves": (moves or None,)})
         surface = self._connected if surface is None else surface
         asked = {"lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn, "boundary": boundary}
-        asked |= {"max_added": max_added, "allowed": allowed, "moves": moves}
-        asked |= {"turns": turns, "lines": lines, "marked": marked, "cones": cones}
-        options = tile_options(surface, poles, tiles, evenness=evenness, **asked)
+        asked |= {"max_added": max_added, "allowed": allowed, "moves": () if moves is None else moves}
+        asked |= {"turns": asked_turns(turns, texture), "lines": lines, "marked": marked, "cones": cones}
+        request = Request(tiles=tiles, density=density, poles=poles, evenness=evenness, **asked)
+        options = request.alone(self._component.area).tiling(surface)
         return Tiling.of_core(self._core.tile(options, threads=self._threads, progress=progress), surface)
-
-    def _tiles_of(self, density, tiles):
-        if tiles is not None:
-            raise ValueError("give tiles or a density, not both")
-        return real_number(density, "density", positive=True) * self._component.area
 
     def tiler(
         self,
@@ -205,7 +190,7 @@ class Structure(Value):
             default: that of the structure, where it is connected
         """
         surface = self._connected if surface is None else surface
-        asked = tile_options(surface, poles, boundary=boundary, allowed=allowed)
+        asked = Request(poles=poles, boundary=boundary, allowed=allowed).tiling(surface)
         core = self._core.tiler(asked, evened=bool(evened), threads=self._threads, progress=progress)
         return Tiler.of_core(surface, core, self._threads)
 

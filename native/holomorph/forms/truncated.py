@@ -9,7 +9,7 @@ from .. import _native
 from ..core import arrays
 from ..mesh.checks import checked_coefficients
 from ..mesh.edges import edge_keys, edges_of_keys
-from ..tiling.options import part_of
+from ..tiling.request import part_of
 from .pole_structure import PoleStructure
 from .results import result
 

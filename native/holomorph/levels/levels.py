@@ -17,7 +17,7 @@ from ..core.value import Value, counted
 from ..forms.solver_report import SolverReport
 from ..mesh.checks import check_list, check_options
 from ..mesh.surface import Surface
-from ..tiling.turned import checked_turns
+from ..tiling.request import checked_turns
 
 if TYPE_CHECKING:
     from .progressive import ProgressiveMesh

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from numpy.typing import ArrayLike
 
 from ..core.array_types import Progress
-from ..mesh.checks import check_list, check_type, real_number
+from ..mesh.checks import check_list, check_type
 from ..mesh.surface import Surface
-from ..tiling.tiling import Poles
-from ..tiling.turned import AUTOMATIC, asked_turns, check_chosen, checked_lines
+from ..tiling.request import AUTOMATIC, EVENNESS, Request, asked_turns
+from ..tiling.tilings import Poles
 from .automatic_structure import AnyStructure
 from .map import Map
 from .map_objects import Refusal, map_objects
-from .request import EVENNESS, MeshRequest, Request
-from .size import SizePolicy
 
 
 def automatic_map(
@@ -80,13 +79,11 @@ def automatic_map(
     tiling Fairly even, seamless, a fifth is upside down, no poles
     """
     check_type(surface, Surface)
-    check_chosen(marked, cones)
-    options = {"lattice": lattice, "boundary": boundary, "turn": turn, "max_turn": max_turn, "max_added": max_added}
-    options |= _turning(turns, texture, lines) | {"marked": marked, "cones": cones}
-    chosen = {"options": options, "effort": real_number(effort, "effort", positive=True)}
-    request = Request(surface, structure, main, poles, evenness, direction, **chosen)
-    size = SizePolicy.of([surface], tiles, density)
-    (((made,), _),) = map_objects([[request]], size, threads, progress)
+    chosen = {"main": main, "poles": poles, "marked": marked, "cones": cones, "evenness": evenness, "effort": effort}
+    chosen |= {"lattice": lattice, "boundary": boundary, "direction": direction, "turn": turn, "max_turn": max_turn}
+    chosen |= {"max_added": max_added, "turns": asked_turns(turns, texture), "lines": lines}
+    request = Request(tiles=tiles or None, density=density, **chosen)
+    (((made,), _),) = map_objects([[(request, surface, structure)]], request.size_of([surface]), threads, progress)
     if isinstance(made, Map):
         return made
     raise made
@@ -151,22 +148,14 @@ def automatic_maps(
         check_type(part, Surface, "a part")
     if not isinstance(main, str):
         check_list(main, "main")
-    check_list(moves, "moves")
-    check_chosen(marked, cones)
     mains = [main] * len(parts) if isinstance(main, str) else main
-    options |= _turning(turns, texture, lines)
-    chosen = {"poles": poles, "allowed": allowed, "moves": moves, "marked": marked, "cones": cones}
-    chosen["effort"] = real_number(effort, "effort", positive=True)
-    asked = MeshRequest(**chosen, direction=direction, evenness=evenness, options=options)
-    requests = [asked.of_part(*each) for each in zip(parts, structures or [None] * len(parts), mains)]
-    ((made, _),) = map_objects([requests], SizePolicy.of(parts, tiles, density), threads, progress)
+    chosen = {"poles": poles, "allowed": allowed, "moves": moves, "marked": marked, "cones": cones, "size": None}
+    chosen |= {"direction": direction, "turns": asked_turns(turns, texture), "lines": lines, "evenness": evenness}
+    request = Request(tiles=tiles or None, density=density, effort=effort, **chosen, **options)
+    own = [replace(request.on_part(part), main=name) for part, name in zip(parts, mains)]
+    asked = [*zip(own, parts, structures or [None] * len(parts))]
+    ((made, _),) = map_objects([asked], request.size_of(parts), threads, progress)
     for found in made:
         if isinstance(found, MemoryError):
             raise found
     return made
-
-
-def _turning(turns, texture, lines):
-    """The options of `Structure.tile` that say how tilings turn; `AUTOMATIC` lines besides."""
-    turns = asked_turns(turns, texture)
-    return {"turns": turns, "lines": checked_lines(lines, turns, AUTOMATIC)}

@@ -79,11 +79,6 @@ class PartStructure:
     note: str = ""
     is_chosen: bool = False
 
-    @property
-    def form_count(self) -> int:
-        """How many forms there are to mix."""
-        return 0 if self.structure is None else self.structure.form_count
-
 
 def chosen_structures(
     vertices: ArrayLike,

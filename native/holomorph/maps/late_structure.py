@@ -11,7 +11,7 @@ from ..core import arrays
 from ..core.array_types import Integers, Progress
 from ..core.value import Value, counted
 from ..mesh.surface import Surface
-from ..tiling.options import part_of
+from ..tiling.request import part_of
 from .automatic_structure import AnyStructure, automatic_structure
 
 

@@ -22,7 +22,7 @@ from ..quality.distortion import WorstPlace, drawn_density, worst_places
 from ..quality.quality import Quality
 from ..quality.verdicts import Seen, Verdict, verdict
 from ..tiles.tiled_surface import TiledSurface
-from ..tiling.options import part_of
+from ..tiling.request import part_of
 from ..tiling.tilings import Tiling, vertices_of
 from .automatic_structure import AnyStructure
 from .late_structure import LateStructure

@@ -17,7 +17,7 @@ from ..forms.truncated import pole_structure_of
 from ..mesh.checks import check_bounds, check_options, only_component, own_vertices
 from ..mesh.double import glued_copies
 from ..mesh.surface import Surface
-from ..tiling.options import part_of
+from ..tiling.request import part_of
 from .plane_maps import DiskMap, FreeBoundaryMap, PlaneMap, RectangleMap
 
 

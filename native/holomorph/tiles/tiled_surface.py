@@ -17,8 +17,8 @@ from ..core.array_types import Integers, Progress, Reals
 from ..core.value import Value, counted, quoted
 from ..mesh.checks import check_options, check_type
 from ..mesh.surface import Surface
+from ..tiling.request import TURNS
 from ..tiling.tilings import MOST_PER_TILE, generators
-from ..tiling.turned import TURNS
 from .cells import Cells
 from .places import Lines, Places
 from .relief import Relief, raised

@@ -13,7 +13,7 @@ from ..core.array_types import Progress
 from ..core.value import counted
 from ..mesh.checks import SOLVERS, check_name, check_threads, checked_evenness, only_component
 from ..mesh.surface import Surface
-from .options import part_of, tile_options
+from .request import Request, part_of
 from .tilings import PlacedPoles, Poles, Tiling, vertices_of
 
 
@@ -49,7 +49,7 @@ class Tiler:
     ) -> None:
         check_name(solver, SOLVERS, "solver")
         component, threads = only_component(surface), check_threads(threads or None)
-        asked = tile_options(surface, poles, boundary=boundary, allowed=allowed)
+        asked = Request(poles=poles, boundary=boundary, allowed=allowed).tiling(surface)
         options = {"evened": evened, "solver": solver, "like": like and like._core}
         core = _native.Tiler(part_of(surface, component), asked, **options, threads=threads, progress=progress)
         self._adopt(surface, core, threads)
@@ -91,9 +91,8 @@ class Tiler:
     ) -> Tiling:
         """A `Tiling`; see `Structure.tile`. turn : radians by which the texture is rotated, beside the direction."""
         rounded = {"lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn}
-        rounded["max_added"] = max_added
-        asked = tile_options(self._surface, "auto", tiles, evenness=evenness, **rounded)
-        return self._tiling(self._core.tile(asked, threads=self._threads, progress=progress))
+        asked = Request(tiles=tiles, max_added=max_added, evenness=evenness, **rounded)
+        return self._tiling(self._core.tile(asked.tiling(self._surface), threads=self._threads, progress=progress))
 
     def even(self, tiling: Tiling, evenness: float, *, progress: Progress | None = None) -> Tiling:
         """A tiling of this `Tiler` with another evenness. Nothing is placed or rounded again: quick."""
@@ -118,8 +117,10 @@ class Tiler:
         evenness : default that of the tiling
         """
         made = self._own(tiling)
-        asked = tile_options(self._surface, evenness=tiling.evenness if evenness is None else evenness, moves=moves)
-        return self._tiling(self._core.moved(made, asked, threads=self._threads, progress=progress))
+        asked = Request(evenness=tiling.evenness if evenness is None else evenness, moves=moves)
+        return self._tiling(
+            self._core.moved(made, asked.tiling(self._surface), threads=self._threads, progress=progress)
+        )
 
     def _own(self, tiling):
         if tiling not in self._made:

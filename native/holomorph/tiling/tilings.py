@@ -1,21 +1,18 @@
-"""Seamless tilings, UV maps of even density whose jumps are symmetries of the texture; and what is asked of them."""
+"""Seamless tilings, UV maps of even density whose jumps are symmetries of the texture."""
 
 from __future__ import annotations
 
 import math
-import numbers
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import TypeAlias
 
 import numpy as np
 
 from .. import _native
-from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import Complexes, Integers, Reals
 from ..core.value import Value, counted, quoted
-from ..mesh.checks import own_vertices
 from ..mesh.surface import Surface
 from ..quality.appearance import CONE, POLE
 from ..quality.quality import Quality
@@ -26,7 +23,6 @@ BOUNDARIES = ("automatic", "straight", "free")
 MOST_POLES, MOST_PER_TILE = 1000, 1000
 Poles: TypeAlias = str | int | Sequence[int] | Integers  # "auto", a number, or vertices
 UPRIGHT = "upright"
-UP = {"Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}  # by `Surface.up`
 
 
 @dataclass(frozen=True, repr=False)
@@ -104,28 +100,14 @@ class Tiling(Value):
     @classmethod
     def of_core(cls, made: _native.SeamlessMap, surface: Surface) -> Tiling:
         """The one that the core made of a connected surface."""
-        zeros, orders = made.zeros
-        return cls(
-            uv=made.uv,
-            periods=made.periods,
-            poles=vertices_of(surface, made.poles),
-            residues=made.residues,
-            zeros=(vertices_of(surface, zeros), orders),
-            evenness=made.evenness,
-            added_distortion=made.added_distortion,
-            beltrami_rms=made.beltrami_rms,
-            optimal_size_range=made.optimal_size_range,
-            rounding=Rounding(*made.rounding),
-            tiles=made.tiles,
-            quality=Quality._of(made.quality, made.triangulation, surface.up),
-            seams=vertices_of(surface, made.seams),
-            lattice=arrays.frozen(np.array([[z.real, z.imag] for z in made.lattice]).T.copy()),
-            turns=made.turns,
-            cones=vertices_of(surface, made.cones),
-            cone_angles=made.cone_angles,
-            jumps=made.jumps,
-            lines=made.lines,
-        )
+        component, (zeros, orders) = surface.components[0], made.zeros
+        own = {"zeros": zeros, "poles": made.poles, "seams": made.seams, "cones": made.cones}
+        if component is not surface:
+            own = {name: arrays.frozen(component.vertex_index[vertices]) for name, vertices in own.items()}
+        values = {one.name: getattr(made, one.name) for one in fields(cls)} | own | {"zeros": (own["zeros"], orders)}
+        values["quality"] = Quality._of(made.quality, made.triangulation, surface.up)
+        values["lattice"] = arrays.frozen(np.array([[z.real, z.imag] for z in made.lattice]).T.copy())
+        return cls(**values | {"rounding": Rounding(*made.rounding)})
 
     def _facts(self):
         size = f"{self.tiles:.4g} tiles, {special(len(self.poles), self.turns, len(self.cones), self.lines)}"
@@ -166,45 +148,6 @@ def vertices_of(surface, own):
     return own if component is surface else arrays.frozen(component.vertex_index[own])
 
 
-def asked_poles(poles):
-    """(count or None, chosen vertices). @throws ValueError or InvalidMesh for anything else"""
-    if isinstance(poles, str):
-        if poles != "auto":
-            raise ValueError(f'poles is {quoted(poles)}; "auto", a number or a list of vertices is needed')
-        return None, []
-    if isinstance(poles, numbers.Real):
-        if not 0 <= poles <= MOST_POLES or poles != int(poles):
-            raise ValueError(f"poles is {quoted(poles)}; a whole number from 0 to {MOST_POLES} is needed")
-        return int(poles), []
-    vertices = arrays.integer(poles, "poles")
-    return len(vertices), vertices
-
-
-def own_poles(surface, component, vertices):
-    """The vertices of `own_vertices`; refuses a pole that is given twice."""
-    if not len(vertices):
-        return []
-    own, _ = own_vertices(surface, component, vertices, "pole")
-    given, times = np.unique(np.asarray(vertices, int), return_counts=True)
-    for vertex in given[times > 1]:
-        raise TopologyError(f"pole {vertex} is given twice")
-    return own
-
-
-def own_allowed(allowed, surface, component):
-    """Where poles may be, by the component's vertices; [] for anywhere. @throws ValueError"""
-    if allowed is None:
-        return []
-    allowed = np.asarray(allowed, bool)
-    count = surface._native.vertex_count
-    if allowed.shape != (count,):
-        raise ValueError(f"allowed has the shape {allowed.shape}; ({count},) is needed")
-    own = allowed if component is surface else allowed[component.vertex_index]
-    if not own.any():
-        raise ValueError("allowed leaves no vertex for a pole")
-    return own.tolist()
-
-
 def generators(lattice):
     """The two generators of a lattice as complex numbers. @throws ValueError"""
     if isinstance(lattice, str):
@@ -217,17 +160,3 @@ def generators(lattice):
     if abs(np.linalg.det(matrix)) <= 1e-9 * np.abs(matrix).max() ** 2:
         raise ValueError("lattice is singular: its columns, the translations of the texture, must be independent")
     return complex(*matrix[:, 0]), complex(*matrix[:, 1])
-
-
-def heading(direction):
-    """(whether rows run level, (3,) vector that u runs along, or None). @throws ValueError for another direction"""
-    if isinstance(direction, str):
-        if direction != UPRIGHT:
-            raise ValueError(f'direction is {quoted(direction)}; "{UPRIGHT}", three numbers or None is needed')
-        return True, None
-    if direction is None:
-        return False, None
-    vector = arrays.numbers(direction, "direction")
-    if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
-        raise ValueError(f"direction is {quoted(direction)}; three numbers, not all 0, are needed")
-    return False, vector.tolist()

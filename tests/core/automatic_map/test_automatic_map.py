@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from families import cylinder, geodesic_sphere, hemisphere, torus, united
 from holomorph.__main__ import main
-from holomorph.maps.request import EVENNESS
 from holomorph.quality.quality import Quality
+from holomorph.tiling.request import EVENNESS
 
 SHARED = {"hand": "hand_lowres_b1.obj", "pretzel": "double-torus.obj"}
 FAMILIES = {

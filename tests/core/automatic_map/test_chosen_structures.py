@@ -74,7 +74,7 @@ def test_a_choice_that_is_found_gives_way_and_an_explicit_one_refuses():
     """One pole alone, on a torus: its residue would have to be 0."""
     arrays = TORUS.vertices, TORUS.corners, TORUS.offsets
     _, (part,) = chosen_structures(*arrays, Choices(AUTOMATIC, (5,)))
-    assert part.form_count == 1 and part.note and not part.is_chosen
+    assert part.structure.form_count == 1 and part.note and not part.is_chosen
     with pytest.raises(TopologyError, match="pole 5 is the only one"):
         chosen_structures(*arrays, Choices(POLES, (5,)))
     with pytest.raises(InvalidMesh, match="vertex 999 belongs to no face"):

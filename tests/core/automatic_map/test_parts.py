@@ -7,7 +7,7 @@ import holomorph
 import numpy as np
 import pytest
 from holomorph import Surface, _native, automatic_maps
-from holomorph.tiling.options import part_of
+from holomorph.tiling.request import part_of
 from solved import surface_of
 
 

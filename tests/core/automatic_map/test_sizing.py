@@ -6,9 +6,8 @@ import pytest
 from holomorph import Surface, _native, automatic_map, automatic_maps
 from holomorph.maps.arrangement import arranged
 from holomorph.maps.map_objects import map_objects
-from holomorph.maps.request import Request
-from holomorph.maps.size import TOLERANCE, SizePolicy
 from holomorph.quality.distortion import drawn_density
+from holomorph.tiling.request import TOLERANCE, Request, plain_size
 from solved import surface_of
 
 LIKE = 1.1  # largest over smallest median density of parts whose squares have one size
@@ -67,18 +66,18 @@ def test_squares_of_nearly_one_size_are_preferred_to_a_seam(scale):
     missed = second.density / first.density
     assert first.kind == second.kind == "tiling" and 0.05 < abs(missed - 1) <= TOLERANCE
     assert second.cost + abs(np.log(missed)) <= automatic_map(parts[1], main="untiled").cost
-    requests, size = [Request(part) for part in parts], _native.SizePolicy.of_density(first.density, 0.05)
-    (((_, exact), _),) = map_objects([requests], SizePolicy.of_core(size))
+    asked, size = [(Request(), part, None) for part in parts], _native.SizePolicy.of_density(first.density, 0.05)
+    (((_, exact), _),) = map_objects([asked], plain_size(size))
     assert not exact.is_tiled
 
 
 @pytest.mark.parametrize("size", [{}, {"tiles": 300.0}, {"density": 6.0}], ids=["default", "tiles", "density"])
 def test_each_object_alone_gets_the_maps_that_it_has_beside_others(size):
     objects = [[limb(0.5), limb(0.4)], [limb()], [limb(0.8), surface_of(families.geodesic_sphere(3))], [torus(0.5)]]
-    requests = [[Request(part) for part in parts] for parts in objects]
-    together = map_objects(requests, SizePolicy.of([part for parts in objects for part in parts], **size))
+    asked = [[(Request(), part, None) for part in parts] for parts in objects]
+    together = map_objects(asked, Request(**size).size_of([part for parts in objects for part in parts]))
     assert sum(made.is_tiled for found in together for made in found.maps) > 2
-    for own, found in zip(requests, together):
+    for own, found in zip(asked, together):
         ((alone, _),) = map_objects([own], found.size)
         assert all(np.array_equal(one.uv, other.uv) for one, other in zip(alone, found.maps))
 
@@ -90,6 +89,6 @@ def test_copies_with_poles_elsewhere_are_no_copies():
     middle = len(ball.vertices) // 2
     masks[0, middle : middle + 40] = masks[1, middle + 100 : middle + 140] = True
     assert repr(masks[0]) == repr(masks[1])
-    requests = [Request(ball, main="seamless", options={"allowed": mask}) for mask in masks]
-    ((maps, _),) = map_objects([requests], SizePolicy.of([ball, ball]))
+    asked = [(Request(main="seamless", allowed=mask), ball, None) for mask in masks]
+    ((maps, _),) = map_objects([asked], Request().size_of([ball, ball]))
     assert all(mask[made.poles].all() for mask, made in zip(masks, maps))

@@ -11,7 +11,7 @@ import pytest
 from families import torus
 from holomorph import Cancelled, Surface, TiledSurface, _native, automatic_map, automatic_maps, island_map
 from holomorph.quality.overlap import overlapping_part
-from holomorph.tiling.options import part_of
+from holomorph.tiling.request import part_of
 from tiled_grids import flat_square
 
 MOST = 1.4  # exponent of growth

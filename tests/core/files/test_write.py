@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from holomorph import InvalidMesh, Surface, automatic_structure, form_map
 from holomorph.__main__ import main
-from holomorph.maps.request import EVENNESS
+from holomorph.tiling.request import EVENNESS
 from mesh_files import obj
 from solved import solved, surface_of
 

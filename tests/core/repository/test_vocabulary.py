@@ -10,6 +10,7 @@ import pytest
 from families import torus
 from holomorph.batch.recipe import Tiles
 from holomorph.maps.report import part_report, whole_report
+from holomorph.tiling.request import Request
 from repository import ROOT
 from solved import surface_of
 
@@ -107,21 +108,13 @@ def of_class(kind):
     return {one.name: one.default if one.default is not MISSING else one.default_factory() for one in fields(kind)}
 
 
-def of_addon(name):
-    """The defaults of a dataclass of the add-on, which is not imported: it needs Blender."""
-    tree = ast.parse((ROOT / "addon" / "maps" / "mapped.py").read_text(encoding="utf-8"))
-    (found,) = (node for node in tree.body if isinstance(node, ast.ClassDef) and node.name == name)
-    assigned = [node for node in found.body if isinstance(node, ast.AnnAssign) and isinstance(node.value, ast.Constant)]
-    return {node.target.id: node.value.value for node in assigned}
-
-
 DOORS = {
     "Structure.tile": of_function(holomorph.ConformalStructure.tile),
     "Tiler.tile": of_function(holomorph.Tiler.tile),
     "automatic_map": of_function(holomorph.automatic_map),
     "automatic_maps": of_function(holomorph.automatic_maps),
     "batch": of_class(Tiles),
-    "Blender": of_addon("TileOptions"),
+    "Request": of_class(Request),
 }
 
 

@@ -157,14 +157,14 @@ def run(main="BALANCED", **options):
     return bpy.ops.uv.holomorphic_maps(main=main, **options)
 
 
-def then(count=1, **options):
-    """What follows the solves of a `jobs.Job`: maps with these `mapped.MapOptions`."""
+def then(count=1, main="AUTOMATIC"):
+    """What follows the solves of a `jobs.Job`: `mapped.MappedObject`s with this main map."""
     mapped = importlib.import_module("holomorph_addon.maps.mapped")
-    return mapped.follow([mapped.MapOptions(**options)] * count)
+    return mapped.follow([mapped.MappedObject(mapped.Request(main.lower()), main=main)] * count)
 
 
 def written(obj, **options):
-    """The `report.Outcome` of maps with these `mapped.MapOptions`."""
+    """The `report.Outcome` of maps as in `then`."""
     names = ("scene.targets", "solving.jobs", "results.write", "writing.transaction")
     targets, jobs, write, transaction = (importlib.import_module(f"holomorph_addon.{name}") for name in names)
     found = targets.collect([obj])
