@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is asked for by dials: of an operator or an object; and its run."""
 
+import ast
 import math
 from dataclasses import replace
 from types import SimpleNamespace
@@ -12,7 +13,7 @@ from ..maps import mapped
 from ..maps.mapped import BALANCED, ISLANDS, SEAMLESS, MapOptions, TileOptions
 from ..materials import material, textures, user_texture
 from ..materials.user_texture import AUTOMATIC, IMAGE, MATERIAL
-from ..results import advice, points, report, stored, symmetric, write
+from ..results import advice, points, stored, symmetric, write
 from ..results.write import WriteOptions
 from ..scene import gathering, mesh_io, stored_dials, targets
 from ..solving import jobs
@@ -67,13 +68,12 @@ class Run:
         """Lets the tiles of an object have the size that they had together with those of others, if no dial says
         another."""
         (target,), stored_now = self._found, self._write_options.stored
-        text = target.find().get(report.PROPERTY)
-        before, asked = stored.parsed(text).get("dials", {}), stored.asked(text)
-        made, together = before.get("stored") or {}, before.get("together", 1)
-        if together > 1 and asked and self._options and all(made.get(name) == stored_now[name] for name in OF_SIZE):
+        made = stored_dials.made(target.find())
+        is_same = made and self._options and all(getattr(made.dials, name) == stored_now[name] for name in OF_SIZE)
+        if is_same and made.together > 1:
             (options,) = self._options
-            self._options = [replace(options, tiling=replace(options.tiling, size=asked.size))]
-            self._write_options = replace(self._write_options, together=together)
+            self._options = [replace(options, tiling=replace(options.tiling, size=ast.literal_eval(made.size)))]
+            self._write_options = replace(self._write_options, together=made.together)
 
     def job(self, progress=None):
         """The `jobs.Job` that solves and maps."""
@@ -275,13 +275,11 @@ def _poles(dials, obj):
 
 
 def _poles_where_coarse(obj):
-    """The poles of the last tiling, and the coarsest vertices of the places that its report names."""
-    text = obj.get(report.PROPERTY)
-    vertices, is_pole = stored.marks(stored.whole_tilings(text))
-    if not is_pole.any():
+    """The poles of the last tiling, and the coarsest vertices of the places that were found."""
+    vertices, kinds = stored.points(obj, whole=True)
+    if stored.POLE not in kinds:
         return "auto"
-    found = [place["vertex"] for place in stored.parsed(text).get("coarse_places", [])]
-    poles = {*vertices[is_pole].tolist(), *found}
+    poles = {*vertices[kinds == stored.POLE].tolist(), *map(int, stored_dials.made(obj).coarse_vertices.split())}
     return tuple(sorted(vertex for vertex in poles if vertex < len(obj.data.vertices)))
 
 
