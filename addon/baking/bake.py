@@ -9,8 +9,7 @@ import bpy
 import numpy as np
 
 from .. import native
-from ..results import report, stored
-from ..scene import gathering, targets, uv_maps
+from ..scene import gathering, stored_dials, targets, uv_maps
 from ..solving.jobs import Work
 from . import atlas, bake_scene
 from .channels import CHANNELS, ONE, BakeOptions
@@ -32,7 +31,8 @@ def why_not(obj):
     """Why an object cannot be baked, one sentence, or ""."""
     if gathering.why_fixed(obj):
         return gathering.why_fixed(obj)
-    if not stored.tilings(obj.get(report.PROPERTY)) or not uv_maps.main_map(obj.data):
+    made = stored_dials.made(obj)
+    if made is None or not made.is_tiled or not uv_maps.main_map(obj.data):
         return "it has no seamless tiling to bake; press Seamless Tiling first (other maps need no bake)"
     if not obj.material_slots:
         return "it has no material to bake"

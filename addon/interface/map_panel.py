@@ -13,7 +13,7 @@ from ..operators.properties import UNLINED
 from ..operators.symmetric import HOLOMORPH_OT_make_symmetric
 from ..overlays import overlay
 from ..scene import stored_dials
-from . import lines, words
+from . import lines, verdict_view, words
 
 UNTILED = {"BALANCED", "ISLANDS"}  # values of the dial of seams without tiles that fit together
 SECONDS_EACH = 7e-5  # for each triangle: some 6 s at 100,000, by `scripts/benchmark click`
@@ -47,11 +47,12 @@ class MapPanel:
 
     def draw(self, context):
         layout, obj = self.layout, context.active_object
-        text = _report(obj)
-        is_edited, is_behind = _is_edited(obj, text), _is_behind(obj, text)
+        made = None if native.problem() else stored_dials.made(obj)
+        is_edited = made is not None and _is_edited(obj)
+        is_old = is_edited or (made is not None and stored_dials.is_behind(obj))
         button = layout.row(align=True)
         button.scale_y = 1.5
-        _draw_button(button, is_edited or is_behind)
+        _draw_button(button, is_old)
         layout = layout.column()
         layout.enabled = not is_blocked()
         if native.problem():
@@ -60,12 +61,10 @@ class MapPanel:
             lines.draw(layout.column(align=True), context, CONVERT, "INFO")
         elif obj is not None and obj.type == "MESH":
             dials = getattr(obj, stored_dials.NAME)
-            _draw_dials(layout.column(), context, dials, text)
-            _draw_note(layout.column(align=True), context, obj, dials, is_edited or is_behind or not text)
-            if text:
-                from . import verdict_view
-
-                verdict_view.draw(layout, context, text, is_edited)
+            _draw_dials(layout.column(), context, dials, made)
+            _draw_note(layout.column(align=True), context, obj, dials, is_old or made is None)
+            if made:
+                verdict_view.draw(layout, context, made, is_edited)
 
 
 def is_blocked():
@@ -73,31 +72,10 @@ def is_blocked():
     return WorkOperator.running is not None and follow.HOLOMORPH_OT_follow.active is None
 
 
-def _report(obj):
-    """The stored report of an object, or ""."""
-    if native.problem() or obj is None or obj.type != "MESH":
-        return ""
-    from ..results import report, stored
-
-    text = obj.get(report.PROPERTY)
-    return text if stored.parsed(text) else ""
-
-
-def _is_edited(obj, text):
-    if not text:
-        return False
+def _is_edited(obj):
     from ..results import stored
 
-    return stored.is_edited(stored.parsed(text), obj.data)
-
-
-def _is_behind(obj, text):
-    """Whether the map is not that of the dials."""
-    if not text:
-        return False
-    from ..results import stored
-
-    return stored.is_behind(stored.parsed(text), obj)
+    return stored.is_edited(obj)
 
 
 def _draw_button(layout, is_update):
@@ -113,7 +91,7 @@ def _draw_button(layout, is_update):
         layout.label(text=f"{words.said(MAKING)}: {running.watch.fraction:.0%}")
 
 
-def _draw_dials(layout, context, dials, text):
+def _draw_dials(layout, context, dials, made):
     draw_texture(layout, dials)
     is_tiled = dials.main not in UNTILED
     name = "size" if dials.by_size or not is_tiled else "tiles"
@@ -121,32 +99,24 @@ def _draw_dials(layout, context, dials, text):
     dial(layout, dials, "evenness", slider=True)
     if not is_tiled:
         return
-    found = _found(text)
-    made = dial(layout, dials, "turns")
-    if found.turns in TURNED and context.region.width > NARROW * context.preferences.system.ui_scale:
-        end = made.row(align=True)
+    line = dial(layout, dials, "turns")
+    if made and made.turns in TURNED and context.region.width > NARROW * context.preferences.system.ui_scale:
+        end = line.row(align=True)
         end.ui_units_x = 1
-        end.label(text=TURNED[found.turns])
-    if text and shows_turns(text):
-        made.operator(HOLOMORPH_OT_make_symmetric.bl_idname, text="", icon="MOD_MIRROR")
-    made = dial(layout, dials, "direction")
-    made.operator(HOLOMORPH_OT_quarter.bl_idname, text="", icon="DRIVER_ROTATIONAL_DIFFERENCE")
-    if found.points:
-        made = row(layout, words.said(f"{found.points} Points"))
-        if found.movable:
-            made.operator(drag.HOLOMORPH_OT_drag_poles.bl_idname, text="Drag", icon="VIEW_PAN")
+        end.label(text=TURNED[made.turns])
+    if made and made.shown_turns:
+        line.operator(HOLOMORPH_OT_make_symmetric.bl_idname, text="", icon="MOD_MIRROR")
+    line = dial(layout, dials, "direction")
+    line.operator(HOLOMORPH_OT_quarter.bl_idname, text="", icon="DRIVER_ROTATIONAL_DIFFERENCE")
+    if made and made.point_count:
+        line = row(layout, words.said(f"{made.point_count} Points"))
+        if made.movable_count:
+            line.operator(drag.HOLOMORPH_OT_drag_poles.bl_idname, text="Drag", icon="VIEW_PAN")
         if dials.moved:
-            made.operator(drag.HOLOMORPH_OT_automatic_points.bl_idname, text="", icon="LOOP_BACK")
+            line.operator(drag.HOLOMORPH_OT_automatic_points.bl_idname, text="", icon="LOOP_BACK")
         is_shown = getattr(context.window_manager, overlay.MARKS)
-        text = "" if found.movable else "Shown"
-        made.prop(context.window_manager, overlay.MARKS, text=text, icon="HIDE_OFF" if is_shown else "HIDE_ON")
-
-
-def shows_turns(text):
-    """Whether the texture shows where the map turns, and may be made symmetric."""
-    from ..results import symmetric
-
-    return symmetric.shown_turns(text) > 0
+        text = "" if made.movable_count else "Shown"
+        line.prop(context.window_manager, overlay.MARKS, text=text, icon="HIDE_OFF" if is_shown else "HIDE_ON")
 
 
 def _draw_count(layout, dials, name):
@@ -158,12 +128,6 @@ def _draw_count(layout, dials, name):
         made = dial(layout, dials, name, switch, text="Automatic", toggle=True)
     if dials.main not in UNTILED:
         made.prop(dials, "by_size", text="", icon="DRIVER_DISTANCE")
-
-
-def _found(text):
-    from ..results import stored
-
-    return stored.found(text)
 
 
 def _draw_note(layout, context, obj, dials, is_to_make):

@@ -16,6 +16,7 @@ from ..operators import (
 from ..operators.mapping import HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
 from ..operators.mixins import TAB
 from ..overlays import overlay
+from ..scene import stored_dials
 from . import lines, map_panel, menus
 
 INDENT = 8  # spaces before what is continued on a further line
@@ -49,22 +50,15 @@ class _DetailsPanel(_Panel):
 
     @classmethod
     def poll(cls, context):
-        if native.problem() or context.active_object is None:
-            return False
-        from ..results import report
-
-        return report.PROPERTY in context.active_object
+        return not native.problem() and stored_dials.made(context.active_object) is not None
 
     def draw(self, context):
-        from ..results import report, stored
-        from . import verdict_view
-
-        column, entry = self.layout.column(align=True), stored.parsed(context.active_object[report.PROPERTY])
-        for name, value in verdict_view.numbers(entry) if entry else ():
+        column, made = self.layout.column(align=True), stored_dials.made(context.active_object)
+        for numbers in made.numbers.splitlines():
             row = column.split(factor=0.72)
-            row.label(text=name)
-            row.label(text=value)
-        for line in stored.summary(context.active_object[report.PROPERTY]):
+            for text in numbers.split("\t"):
+                row.label(text=text)
+        for line in made.summary.splitlines():
             lines.draw(column, context, line, indent=INDENT)
 
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import bpy
 
 from .. import compatibility, native
-from ..results import report, stored, tags
+from ..results import report, tags
 from ..results.write import WriteOptions
 from ..results.write import write as write_maps
-from ..scene import mesh_io, targets, uv_maps
+from ..scene import mesh_io, stored_dials, targets, uv_maps
 from ..writing import transaction
 from . import transfer
 from .levels import LevelsWork
@@ -77,7 +77,7 @@ def _copy(obj, mesh, name):
     copy = obj.copy()
     copy.data = mesh
     copy.name = mesh.name = name
-    copy.pop(report.PROPERTY, None)
+    report.remove(copy)
     tags.put(copy, OF, obj)
     return copy
 
@@ -139,7 +139,8 @@ class Source:
         (self.target,) = targets.collect([obj])
         self.refused = self.target.refused
         self._data = None if self.refused else transfer.read(obj.data, self.target.polygons)
-        self._main, self._turns = uv_maps.main_map(obj.data), stored.turns(obj.get(report.PROPERTY))
+        made = stored_dials.made(obj)
+        self._main, self._turns = uv_maps.main_map(obj.data), made.turns if made else 1
 
     def work(self, options, progress=None):
         """The `LevelsWork`."""

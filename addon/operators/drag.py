@@ -34,14 +34,12 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context):
-        from ..results import report, stored
-
-        obj = context.active_object
-        text = obj.get(report.PROPERTY) if obj is not None and obj.type == "MESH" else None
-        found = stored.found(text)
-        if found.points and not found.movable:
-            return "The points of a map that is cut stay where they are: set Seams in Advanced to None for others"
-        return "" if found.points else "Select an object whose map has points"
+        made = stored_dials.made(context.active_object)
+        if made is None or not made.point_count:
+            return "Select an object whose map has points"
+        if made.movable_count:
+            return ""
+        return "The points of a map that is cut stay where they are: set Seams in Advanced to None for others"
 
     def execute(self, context):
         """Moves the poles at once: for scripts, and the redo panel."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import native
 from ..maps import mapped
-from ..results import points, report, stored, write
+from ..results import points, stored, write
 from ..scene import stored_dials, targets, uv_maps
 from ..solving import jobs
 from ..writing import transaction
@@ -21,25 +21,25 @@ class Session:
     """A tiling whose poles are dragged. Poles are counted as in the report: part by part."""
 
     def __init__(self, obj):
-        """Takes up the tiling that the report tells of. @throws ValueError where there is none, or no longer"""
-        text = obj.get(report.PROPERTY)
-        if stored.parsed(text).get("is_selection"):
+        """Takes up the tiling of an object. @throws ValueError where there is none, or no longer"""
+        known = stored_dials.made(obj)
+        if known and known.is_selection:
             raise ValueError(
                 f"{obj.name}: points can be dragged only where the whole mesh was tiled, not selected faces"
             )
-        other = stored.parsed(text).get("scale_of")
-        if other:
-            raise ValueError(f"{obj.name}: drag the points on {other}: its mesh was tiled in the scale of that object")
+        if known and known.scale_of:
+            other = f"{known.scale_of}: its mesh was tiled in the scale of that object"
+            raise ValueError(f"{obj.name}: drag the points on {other}")
         dials = getattr(obj, stored_dials.NAME)
         self.target, self._map = request.collect([obj], dials)[0], uv_maps.main_map(obj.data)
-        if not text or self.target.refused or self._map not in obj.data.uv_layers:
+        if not known or self.target.refused or self._map not in obj.data.uv_layers:
             raise ValueError(f"{obj.name}: it has no map with points to drag; {AGAIN}")
-        if stored.is_behind(stored.parsed(text), obj):
+        if stored_dials.is_behind(obj):
             raise ValueError(f"{obj.name}: its dials were changed since its map was made; {AGAIN}")
         own, _ = request.own_texture(dials)
         self._wanted, self._write_options = request.Run(dials, [self.target], own, goes_on=True).only
-        tilings = stored.whole_tilings(text)
-        self.are_cones, self._earlier = len(stored.cones(tilings)) > 0, request.moved_points(dials, self.target)
+        vertices, kinds = stored.points(obj, whole=True)
+        self.are_cones, self._earlier = stored.CONE in kinds, request.moved_points(dials, self.target)
         self._count = points.asked_count(dials)
         self._task = targets.tasks([self.target])[0]
         self.mapped = None
@@ -47,8 +47,7 @@ class Session:
         if not self._tiled(self.mapped):
             reasons = [part.skipped or part.not_seamless for part in self.mapped.parts]
             raise ValueError(f"{obj.name}: {'; '.join(filter(None, reasons))}")
-        vertices, is_pole = stored.marks(tilings)
-        if not np.array_equal(self.poles, stored.cones(tilings) if self.are_cones else vertices[is_pole]):
+        if not np.array_equal(self.poles, vertices[kinds == (stored.CONE if self.are_cones else stored.POLE)]):
             raise ValueError(f"{obj.name}: its mesh has changed since it was tiled; {AGAIN}")
         self._uv, self._is_shown = uv_maps.read_map(obj.data, self._map), False
         self._parts = [part.component.surface.vertex_index for part in self._tiled(self.mapped)]

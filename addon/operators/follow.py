@@ -31,13 +31,10 @@ def changed(obj, context):
 
 def follows(obj):
     """Whether an object has a map of other dials, which can be made anew."""
-    from ..results import report, stored
-
     if obj is None or obj.type != "MESH" or obj.mode != "OBJECT" or obj.library is not None:
         return False
-    entry = stored.parsed(obj.get(report.PROPERTY))
-    is_own = bool(entry) and not entry.get("is_selection") and "scale_of" not in entry
-    return is_own and stored.is_behind(entry, obj)
+    made = stored_dials.made(obj)
+    return made is not None and not made.is_selection and not made.scale_of and stored_dials.is_behind(obj)
 
 
 def _expected(obj):
@@ -87,12 +84,10 @@ def make(obj, context):
 
 def _end(obj, context, refused):
     """What is told with the dials, and in the redo panel, which goes on from them."""
-    from ..results import report, stored
-
     group = getattr(obj, stored_dials.NAME)
     group.refused, group.is_waiting = refused, False
     last = context.window_manager.operators[-1:] or ()
-    if not stored.is_behind(stored.parsed(obj.get(report.PROPERTY)), obj):
+    if not stored_dials.is_behind(obj):
         for operator in (one for one in last if one.bl_idname.startswith("UV_OT_holomorphic_")):
             for name, value in stored_dials.of(obj).items():
                 if name in operator.properties.bl_rna.properties:
@@ -193,20 +188,15 @@ class HOLOMORPH_OT_follow(Explained, bpy.types.Operator):
 
 def put_back(obj):
     """The dials are those of the map again."""
-    from ..results import report, stored
-
-    entry = stored.parsed(obj.get(report.PROPERTY))
-    group = getattr(obj, stored_dials.NAME)
-    group.is_waiting = False
-    if entry:
-        stored_dials.write(obj, entry["dials"].get("stored") or {})
+    made = stored_dials.made(obj)
+    getattr(obj, stored_dials.NAME).is_waiting = False
+    if made:
+        stored_dials.write(obj, stored_dials.read(made.dials))
 
 
 @bpy.app.handlers.persistent
 def _agree(*_arguments):
     """After undo, redo and loading: between the step of a slider and that of its map the dials are those of the map."""
-    if native.problem():
-        return
     for obj in bpy.data.objects:
         if obj.is_property_set(stored_dials.NAME) and getattr(obj, stored_dials.NAME).is_waiting:
             put_back(obj)

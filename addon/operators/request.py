@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is asked for by dials: of an operator or an object; and its run."""
 
+import ast
 import math
 from dataclasses import replace
 
@@ -11,7 +12,7 @@ from ..maps import mapped
 from ..maps.mapped import BALANCED, ISLANDS, SEAMLESS, Arrangement, MappedObject, Request
 from ..materials import material, textures, user_texture
 from ..materials.user_texture import AUTOMATIC, IMAGE, MATERIAL
-from ..results import advice, points, report, stored, symmetric, write
+from ..results import advice, points, stored, symmetric, write
 from ..results.write import WriteOptions
 from ..scene import gathering, mesh_io, stored_dials, targets
 from ..solving import jobs
@@ -65,13 +66,12 @@ class Run:
         """Lets the tiles of an object have the size that they had together with those of others, if no dial says
         another."""
         (target,), stored_now = self._found, self._write_options.stored
-        text = target.find().get(report.PROPERTY)
-        before, asked = stored.parsed(text).get("dials", {}), stored.asked(text)
-        made, together = before.get("stored") or {}, before.get("together", 1)
-        if together > 1 and asked and self._wanted and all(made.get(name) == stored_now[name] for name in OF_SIZE):
+        made = stored_dials.made(target.find())
+        is_same = made and self._wanted and all(getattr(made.dials, name) == stored_now[name] for name in OF_SIZE)
+        if is_same and made.together > 1:
             (wanted,) = self._wanted
-            self._wanted = [replace(wanted, request=replace(wanted.request, size=asked.size))]
-            self._write_options = replace(self._write_options, together=together)
+            self._wanted = [replace(wanted, request=replace(wanted.request, size=ast.literal_eval(made.size)))]
+            self._write_options = replace(self._write_options, together=made.together)
 
     def job(self, progress=None):
         """The `jobs.Job` that solves and maps."""
@@ -108,10 +108,8 @@ def collect(objects, dials):
     asked = jobs.Choices(
         use=jobs.NONE if use == "FACES" or is_taken else use,
         residues=jobs.numbers(getattr(dials, "residues", "")),
-        are_islands=are_islands,
+        is_late=are_islands,
         solver=dials.solver,
-        hard_edges=math.degrees(dials.hard_edges) if are_islands else 0.0,
-        most_stretch=dials.most_stretch if are_islands else 0.0,
     )
     at_seams = dials.main != SEAMLESS and (dials.cut_at_seams or are_islands)
     return targets.collect(objects, asked, jobs.WHOLE if is_taken else faces, dials.modifiers, at_seams)
@@ -128,12 +126,24 @@ def own_texture(dials):
 def _wanted(dials, target, own):
     """The `mapped.MappedObject` that is wanted for a `targets.Target` with its selection."""
     if dials.main in (BALANCED, ISLANDS):
-        request, quarters = Request("balanced", density=_density(dials.size, 1), evenness=dials.evenness), 0
+        request = Request(dials.main.lower(), density=_density(dials.size, 1), evenness=dials.evenness)
+        request, quarters = replace(request, **_cuts(dials, target)) if dials.main == ISLANDS else request, 0
     else:
         request, quarters = _tiling(dials, target, own)
     arrangement = Arrangement(dials.density, dials.rotation, dials.margin, quarters=quarters)
     wanted = MappedObject(request, arrangement, dials.main, 0 if dials.main == SEAMLESS else dials.forms)
     return wanted if dials.main in (BALANCED, ISLANDS) else _turned(dials, target, own, wanted)
+
+
+def _cuts(dials, target):
+    """The fields of a `Request` that say where islands are cut; edges that are marked sharp are hard."""
+    seams, degrees = target.chosen.seams, math.degrees(dials.hard_edges)
+    seams = np.concatenate([seams, target.sharp]) if degrees else seams
+    return {
+        "seams": seams,
+        "hard_edges": degrees,
+        "most_stretch": dials.most_stretch if dials.most_stretch > 1 else 0.0,
+    }
 
 
 def _tiling(dials, target, own):
@@ -265,13 +275,11 @@ def _poles(dials, obj):
 
 
 def _poles_where_coarse(obj):
-    """The poles of the last tiling, and the coarsest vertices of the places that its report names."""
-    text = obj.get(report.PROPERTY)
-    vertices, is_pole = stored.marks(stored.whole_tilings(text))
-    if not is_pole.any():
+    """The poles of the last tiling, and the coarsest vertices of the places that were found."""
+    vertices, kinds = stored.points(obj, whole=True)
+    if stored.POLE not in kinds:
         return "auto"
-    found = [place["vertex"] for place in stored.parsed(text).get("coarse_places", [])]
-    poles = {*vertices[is_pole].tolist(), *found}
+    poles = {*vertices[kinds == stored.POLE].tolist(), *map(int, stored_dials.made(obj).coarse_vertices.split())}
     return tuple(sorted(vertex for vertex in poles if vertex < len(obj.data.vertices)))
 
 

@@ -9,11 +9,11 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ..results import report, stored
-from ..scene import mesh_io
+from ..results import stored
+from ..results.stored import CONE, POLE, ZERO
+from ..scene import mesh_io, stored_dials
 from . import on_screen
 
-POLE, ZERO, CONE = range(3)  # kinds of dots
 NAMES = ("point", "points"), ("that follows", "that follow"), ("point", "points")  # one, several
 COLOURS = np.array([(1.0, 0.55, 0.10), (0.95, 0.95, 0.95), (0.45, 0.85, 1.0)])  # sRGB
 SIZES = np.array([1.0, 1.0, 0.6])  # there are more cones, and less is to be seen at each
@@ -78,22 +78,18 @@ def legend(kinds):
 
 def _all_points(objects, dragged):
     """The `_points` of all objects together."""
-    found = [_points(obj, dragged.get(obj.name)) for obj in objects if obj.get(report.PROPERTY)]
+    found = [_points(obj, dragged.get(obj.name)) for obj in objects if stored_dials.made(obj)]
     nothing = np.empty((0, 3)), np.empty(0, np.int64), np.empty(0, bool)
     return tuple(np.concatenate(parts) for parts in zip(nothing, *found))
 
 
 def _points(obj, dragged):
-    """The marks of an object with a report: (n, 3) places in the world, (n,) kinds, (n,) whether the pointer is on
-    it."""
-    tilings = stored.tilings(obj[report.PROPERTY])
-    (vertices, is_pole), cones = stored.marks(tilings), stored.cones(tilings)
-    kinds = np.where(is_pole, POLE, ZERO)
+    """The marks of an object with a map: (n, 3) places in the world, (n,) kinds, (n,) whether the pointer is on it."""
+    vertices, kinds = stored.points(obj)
     if dragged is not None:  # these first, as they are numbered
-        vertices, kind = np.concatenate([dragged.poles, dragged.zeros]), CONE if dragged.are_cones else POLE
-        kinds = np.where(np.arange(len(vertices)) < len(dragged.poles), kind, ZERO)
-        cones = cones[:0] if kind == CONE else cones
-    vertices, kinds = np.concatenate([vertices, cones]), np.append(kinds, np.full(len(cones), CONE))
+        kind, others = CONE if dragged.are_cones else POLE, vertices[(kinds == CONE) & (not dragged.are_cones)]
+        kinds = np.repeat([kind, ZERO, CONE], [len(dragged.poles), len(dragged.zeros), len(others)])
+        vertices = np.concatenate([dragged.poles, dragged.zeros, others])
     if len(vertices) and vertices.max() >= len(obj.data.vertices):  # the mesh is not what it was
         vertices, kinds = vertices[:0], kinds[:0]
     hovered = None if dragged is None else dragged.hovered

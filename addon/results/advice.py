@@ -2,27 +2,21 @@
 """What a panel advises is tried when it is asked for, since it takes as long as another map, and kept where it costs an
 eye less."""
 
-import math
+import numpy as np
 
 from ..maps.mapped import MappedObject
 from ..native import holomorph
+from ..scene import stored_dials
 from . import report, stored
 
 
 def tried(target, made):
-    """What was `mapped` as advised for a `targets.Target`; a refusal where the map that its report tells of costs no
-    more."""
+    """What was `mapped` as advised for a `targets.Target`; a refusal where its map costs no more."""
     obj = target.find()
-    before = stored.parsed(obj.get(report.PROPERTY))
-    if not before or not isinstance(made, MappedObject) or not made.done or stored.is_edited(before, obj.data):
+    before = stored_dials.made(obj)
+    if not before or not isinstance(made, MappedObject) or not made.done or stored.is_edited(obj):
         return made
     after = report.object_report(obj, made)
-    if cost(after) < cost(before):
+    if np.float32(stored.cost(after)) < before.cost:  # in the precision of properties
         return made
-    return holomorph.Error(f"it would be no better: {stored.verdicts(after)[0].sentence}; the map stays as it is")
-
-
-def cost(entry):
-    """That of the maps of an object to an eye, of its report."""
-    found = entry["whole"].get("cost")
-    return math.inf if found is None else found
+    return holomorph.Error(f"it would be no better: {after['verdict']['sentence']}; the map stays as it is")

@@ -8,8 +8,7 @@ import math
 import numpy as np
 
 from ..native import holomorph
-from ..scene import mesh_io, uv_maps
-from . import report, stored
+from ..scene import mesh_io, stored_dials, uv_maps
 
 DENSITY, ANGLE, DIRECTION = "Holomorphic Density", "Holomorphic Angle", "Holomorphic Direction"  # attributes
 
@@ -86,4 +85,5 @@ def _uv(target):
 def _is_tiling(target):
     obj = target.find()
     is_main = obj.data.uv_layers.active.name == uv_maps.main_map(obj.data)
-    return is_main and bool(stored.tilings(obj.get(report.PROPERTY)))
+    made = stored_dials.made(obj)
+    return is_main and made is not None and made.is_tiled

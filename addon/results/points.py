@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The points of a map, its poles and cones, that were dragged or selected: an object stores them with its dials."""
 
-import functools
 import json
+import math
 from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
 from ..scene.stored_dials import MOVED
-from . import shape
 
 BY_SELECTION = {"SELECTED", "COARSE"}  # values of the dial of the points that are for one run: their points are moved
 ROUNDING = 1e-6  # of angles, in turns
@@ -52,29 +51,20 @@ class Points:
         return replace(wanted, request=replace(wanted.request, **fields))
 
 
-@functools.lru_cache(maxsize=1)
-def _shape():
-    return {
-        "vertices": shape.count,
-        "count": int,
-        **dict.fromkeys(("poles", "base"), [shape.count]),
-        "moves": [shape.row(shape.count, shape.count)],
-        "cones": [shape.row(shape.count, shape.number)],
-    }
-
-
 def of(text, dials, mesh):
     """The `Points` in the dial of an object; None where they do not count, or what is there is none."""
     try:
         values = json.loads(text)
-    except (ValueError, RecursionError):
+        rows = {name: tuple(map(tuple, values[name])) for name in ("moves", "cones")}
+        found = Points(**{**values, "poles": tuple(values["poles"]), "base": tuple(values["base"]), **rows})
+        moves = [number for index, vertex in found.moves for number in (index, vertex)]
+        used = [*found.poles, *found.base, *moves, *(vertex for vertex, _ in found.cones)]
+        is_one = all(range(found.vertices)[number] == number for number in used)
+        is_one &= all(math.isfinite(angle) for _, angle in found.cones)
+    except (ValueError, TypeError, LookupError, OverflowError, RecursionError):
         return None
-    if not shape.fits(values, _shape()):
-        return None
-    found = Points(**{name: shape.as_tuple(values[name]) for name in Points.__dataclass_fields__})
-    used = [*found.poles, *found.base, *(v for _, v in found.moves), *(v for v, _ in found.cones)]
-    is_there = found.vertices == len(mesh.vertices) and max(used, default=0) < found.vertices
-    return found if is_there and found.count == asked_count(dials) else None
+    counts = found.vertices, found.count
+    return found if is_one and counts == (len(mesh.vertices), asked_count(dials)) else None
 
 
 def asked_count(dials):

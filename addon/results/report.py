@@ -11,7 +11,7 @@ import numpy as np
 from .. import compatibility, native
 from ..materials import material
 from ..native import holomorph
-from ..scene import gathering, mesh_io, uv_maps
+from ..scene import gathering, mesh_io, stored_dials, uv_maps
 from . import stored
 
 PROPERTY = "holomorph_report"
@@ -68,15 +68,22 @@ def as_json(value, indent=None):
 
 
 def store(obj, entry):
-    """The custom property of an object that was mapped, and of others with its mesh, whose scale may be another; of so
-    many of these that a file stays small."""
+    """Stores the report on an object that was mapped, and what is known of its map; and on others with its mesh, whose
+    scale may be another; on so many of these that a file stays small."""
     others = gathering.others(obj)
     _store_on_object(obj, entry)
     for other in others[:MOST_OTHERS]:
         scale = {"scale_of": obj.name} if gathering.has_other_scale(obj, other) else {}
         _store_on_object(other, {**entry, "object": other.name, **scale})
     for other in others[MOST_OTHERS:]:
-        other.pop(PROPERTY, None)  # it told of an earlier map
+        remove(other)  # it told of an earlier map
+
+
+def remove(obj):
+    """Takes the report away, and what is known of the map; returns whether there was something."""
+    is_known = stored_dials.made(obj) is not None
+    stored_dials.know(obj)
+    return obj.pop(PROPERTY, None) is not None or is_known
 
 
 def _store_on_object(obj, entry):
@@ -86,6 +93,7 @@ def _store_on_object(obj, entry):
         parts = [{k: v for k, v in part.items() if k not in MATRICES} for part in entry["components"]]
         text = as_json({**entry, "components": parts})
     obj[PROPERTY] = text
+    stored_dials.know(obj, stored.values(entry), entry["dials"]["stored"])
 
 
 def store_text(entries):
@@ -160,7 +168,7 @@ class Outcome:
 
     def judge(self, obj, made, entry):
         """Adds the verdict on an object's map: among the problems where no texture can be put on."""
-        found, whole = stored.verdicts(entry)[0], entry["whole"]["text"]
+        found, whole = holomorph.Verdict(**entry["verdict"]), entry["whole"]["text"]
         told = ". ".join(filter(None, [whole, *holomorph.quality.verdicts.told(entry)]))
         (self.notes if found.is_fit else self.problems).append(f"{obj.name}: {told}")
         limit = holomorph.quality.verdicts.OVERLAPPING[1]

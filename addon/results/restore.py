@@ -62,6 +62,6 @@ def remove_maps(step, obj):
     mesh.update()
     for user in (obj, *gathering.others(obj)):
         step.remove(tags.empties_of(user))
+        found |= report.remove(user)
         stored_dials.forget(user)
-        found |= user.pop(report.PROPERTY, None) is not None
     return found

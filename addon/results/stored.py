@@ -1,104 +1,100 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads stored reports: for panels, and for operators that go on with a tiling."""
+"""What an object stores of the map that was made, beside its dials, and the reading of it. Reports are not read."""
 
-import functools
-import json
 import math
-from types import SimpleNamespace
-from typing import NamedTuple
+import re
 
 import numpy as np
 
 from ..native import holomorph
 from ..scene import mesh_io, stored_dials
-from . import shape
 
 SUMMARISED = 8  # parts that a panel shows
 MOST_TILES = 10**9  # in a panel
 SHOWN_PERIODS = 4  # likewise, of each part
+POLE, ZERO, CONE = range(3)  # kinds of points: zeros are branch points
+POINTS = {"poles": POLE, "zeros": ZERO, "cones": CONE}
+OF_PIECES = len(POINTS)  # added to the kind of points that cannot be dragged: of tilings of pieces of parts
+UNSAID = re.compile(r"\b(poles?|cones?|turns)\b")  # what the row of the points and that of the turns show
+TILES_OVERLAP = "Tiles lie on top of each other"
 
 
-@functools.lru_cache(maxsize=16)
-def parsed(stored):
-    """Parses a stored report; an empty one if there is none, or if what is stored has not the `shape` of a report."""
-    try:
-        entry = json.loads(stored)
-    except (ValueError, TypeError, RecursionError):
-        return {}
-    return entry if shape.fits(entry, shape.report()) else {}
-
-
-def tilings(stored):
-    """The tilings of parts, and of pieces of parts."""
-    return tilings_of(parsed(stored))
+def values(entry):
+    """{name: value} of what an object stores, see `operators.dials`, out of the report on its maps."""
+    tilings, dials, asked = tilings_of(entry), entry["dials"], entry["asked"]
+    parts = [part for part in entry["components"] if "tiling" in part]
+    tiles, area = sum(part["tiling"]["tiles"] for part in parts), sum(part["area"] for part in parts)
+    points = list(_points(entry))
+    dots = [kind for _, kind in points if kind % OF_PIECES != ZERO]
+    tile, bake = (holomorph.Verdict(**entry[name]) for name in holomorph.quality.verdicts.PURPOSES)
+    own, places = dials["own"] or {}, entry["coarse_places"]
+    return {
+        "map": entry["maps"][0]["name"],
+        "shape_key": str(entry["shape_key"]),
+        "scale_of": entry.get("scale_of", ""),
+        "is_selection": entry["is_selection"],
+        "size": repr(asked["size"]),
+        "lattice": repr(asked["lattice"]),
+        "together": dials["together"],
+        "own_turns": own.get("turns", 0),
+        "averaged": own.get("averaged", 1),
+        "is_tiled": bool(tilings),
+        "turns": max((tiling["turns"] for tiling in tilings), default=1),
+        "tiles": round(min(tiles, MOST_TILES)),
+        "width": math.sqrt(area / tiles) if tiles > 0 else 0.0,
+        "points": " ".join(f"{vertex} {kind}" for vertex, kind in points),
+        "point_count": len(dots),
+        "movable_count": sum(kind < OF_PIECES for kind in dots),
+        "coarse": coarse_sentence(places) if places else "",
+        "coarse_vertices": " ".join(str(place["vertex"]) for place in places),
+        "cost": cost(entry),
+        "is_fit": tile.is_fit,
+        "sentence": ", ".join(words for words in tile.sentence.split(", ") if not UNSAID.search(words)),
+        "whole": whole(entry),
+        "is_bake_fit": bake.is_fit and not tilings,
+        "bake_sentence": TILES_OVERLAP if tilings else bake.sentence,
+        "numbers": "\n".join(map("\t".join, numbers(entry))),
+        "summary": "\n".join(_summary(entry)),
+    }
 
 
 def tilings_of(entry):
     """The tilings of parts, and of pieces of parts, in the report of an object."""
-    parts = entry.get("components", [])
-    return [tiling for part in parts for tiling in part.get("tilings", [part["tiling"]] if "tiling" in part else [])]
+    return [tiling for part in entry["components"] for tiling, _ in _tilings(part)]
 
 
-def whole_tilings(stored):
-    """The tilings of whole parts, whose points can be dragged."""
-    return [part["tiling"] for part in parsed(stored).get("components", []) if "tiling" in part]
+def _tilings(part):
+    """(a tiling, what is added to the kind of its points) in the report of a part."""
+    pieces = [(tiling, OF_PIECES) for tiling in part.get("tilings", [])]
+    return pieces or ([(part["tiling"], 0)] if "tiling" in part else [])
 
 
-def marks(found):
-    """The marks of tilings: ((n,) vertices, (n,) whether each is a pole, else a branch point)."""
-    poles = [vertex for tiling in found for vertex in tiling["poles"]]
-    zeros = [vertex for tiling in found for vertex in tiling["zeros"]]
-    return np.array(poles + zeros, np.int64), np.arange(len(poles) + len(zeros)) < len(poles)
+def _points(entry):
+    """(vertex, kind) of the points of tilings, those of each kind together, in the order of the parts."""
+    tilings = [each for part in entry["components"] for each in _tilings(part)]
+    for name, kind in POINTS.items():
+        for tiling, more in tilings:
+            yield from ((vertex, kind + more) for vertex in tiling[name])
 
 
-def cones(found):
-    """(n,) vertices at which tilings that turn have cones, in the place of poles."""
-    return np.array([vertex for tiling in found for vertex in tiling.get("cones", [])], np.int64)
+def points(obj, whole=False):
+    """((n,) vertices, (n,) kinds) of the points of tilings; whole : of those of whole parts, which can be dragged"""
+    made = stored_dials.made(obj)
+    vertices, kinds = np.array(made.points.split() if made else [], np.int64).reshape(-1, 2).T
+    is_taken = kinds < OF_PIECES if whole else kinds >= 0
+    return vertices[is_taken], kinds[is_taken] % OF_PIECES
 
 
-def turns(stored):
-    """2, 4 or 6 where tilings turn by this part of a full turn; else 1."""
-    return max((tiling.get("turns", 1) for tiling in tilings(stored)), default=1)
+def is_edited(obj):
+    """Whether the mesh of an object was edited since its map was made."""
+    made = stored_dials.made(obj)
+    return made is not None and made.shape_key != str(mesh_io.shape_key(obj.data))
 
 
-class Found(NamedTuple):
-    """What a panel shows of the tilings of a map, beside the dials that asked for them.
-
-    points : how many there are; movable : of these those of whole parts, which can be dragged; turns : see `turns`
-    tiles, width : how many, and how wide they are on the surface; 0 without tilings
-    """
-
-    points: int = 0
-    movable: int = 0
-    turns: int = 1
-    tiles: int = 0
-    width: float = 0.0
-
-
-@functools.lru_cache(maxsize=16)
-def found(stored):
-    """The `Found` of a stored report."""
-    parts = [part for part in parsed(stored).get("components", []) if "tiling" in part]
-    tiles = min(sum(part["tiling"]["tiles"] for part in parts), MOST_TILES)
-    area = max(sum(part["area"] for part in parts), 0.0)
-    points, movable = (_point_count(found) for found in (tilings(stored), whole_tilings(stored)))
-    return Found(points, movable, turns(stored), round(tiles), math.sqrt(area / tiles) if tiles > 0 else 0.0)
-
-
-def _point_count(found):
-    return sum(len(tiling["poles"]) + len(tiling["cones"]) for tiling in found)
-
-
-def asked(stored):
-    """What a map was asked for, in the fields of a `Request`; None where it is not told."""
-    values = parsed(stored).get("asked")
-    return values and SimpleNamespace(**{name: shape.as_tuple(value) for name, value in values.items()})
-
-
-def verdicts(entry):
-    """The package's `Verdict`s on an object in a report, to tile and to bake; none where there are none."""
-    names = holomorph.quality.verdicts.PURPOSES
-    return [holomorph.Verdict(**entry[name]) for name in names] if entry.get("verdict") else []
+def cost(entry):
+    """That of the maps of an object to an eye, of its report."""
+    found = entry["whole"]["cost"]
+    return math.inf if found is None else found
 
 
 def whole(entry):
@@ -109,47 +105,31 @@ def whole(entry):
     return text[:1].upper() + text[1:]
 
 
-def joined(entry):
-    """How many vertices at one place were joined for the maps, while the mesh has them apart."""
-    return entry["repairs"]["joined_vertices"]["count"]
-
-
-def is_edited(entry, mesh):
-    """Whether a mesh was edited since its report was made."""
-    return entry.get("shape_key") not in (None, mesh_io.shape_key(mesh))
-
-
-def is_behind(entry, obj):
-    """Whether a map was made of other dials than the object has now."""
-    made, now = entry["dials"].get("stored") or {}, stored_dials.of(obj)
-    return any(made[name] != value for name, value in now.items() if name in made)
-
-
-@functools.lru_cache(maxsize=16)
-def summary(stored):
-    """Short lines for the panel."""
-    entry = parsed(stored)
-    return list(_summary(entry)) if entry else []
+def numbers(entry):
+    """(name, value) of what is measured over the whole object, and the sums of what is counted."""
+    measured, whole = [part["main_map"] for part in entry["components"] if part["done"]], entry["whole"]
+    size = math.inf if whole["size_range"] is None else whole["size_range"]
+    return [
+        ("Size range", f"{size:.3g} : 1" if size < 1000 else "1000+"),
+        ("Angle distortion", f"{whole['mean_angle']:.2f} : 1"),
+        ("Flipped triangles", str(sum(one["flipped_triangles"] for one in measured))),
+        ("Collapsed triangles", str(sum(one["collapsed_triangles"] for one in measured))),
+    ]
 
 
 def _summary(entry):
+    """Short lines for the panel."""
     parts, count = entry["components"], len(entry["maps"])
     yield "1 map" if count == 1 else f"{count} maps"
-    yield from cut_lines(entry)
+    yield from (cut["text"][0].upper() + cut["text"][1:] for cut in entry["repairs"]["cuts"])
+    if joined := entry["repairs"]["joined_vertices"]["count"]:
+        yield f"{joined:,} vertices at the places of others were joined"
     for index, part in enumerate(parts[:SUMMARISED], 1):
         yield f"Part {index}: {_topology(part)}" + ("" if part["done"] else ", skipped")
         if part["done"]:
             yield from (f"    {line}" for line in _result_lines(part))
     if len(parts) > SUMMARISED:
         yield f"... {holomorph.report.part_count(parts[SUMMARISED:])} more parts in the report"
-
-
-def cut_lines(entry):
-    """What was cut and joined for the maps, by reasons."""
-    repairs = entry["repairs"]
-    yield from (cut["text"][0].upper() + cut["text"][1:] for cut in repairs["cuts"])
-    if joined(entry):
-        yield f"{joined(entry):,} vertices at the places of others were joined"
 
 
 def _topology(part):
@@ -160,7 +140,7 @@ def _topology(part):
 
 
 def _result_lines(part):
-    yield _sentence(part)
+    yield part["main_map"]["verdict"]["sentence"]
     yield from _tiling_lines(part["tiling"]) if "tiling" in part else [part["description"]]
     yield f"angle distortion {part['main_map']['mean_angle']:.4f}"
     if part.get("modulus") is not None:
@@ -172,16 +152,10 @@ def _result_lines(part):
         yield f"tau = {round(real, 4) + 0.0:.4f} + {imaginary:.4f} i"
 
 
-def _sentence(part):
-    """The verdict on the main map of a part, in short."""
-    return part["main_map"]["verdict"]["sentence"]
-
-
 def _tiling_lines(tiling):
-    turns = tiling.get("turns", 1)
-    if turns != 1:
+    if tiling["turns"] != 1:
         yield f"size range {tiling['size_range']:.3g}"
-        yield holomorph.quality.verdicts.special(0, turns, len(tiling["cones"]), tiling.get("lines", "none"))
+        yield holomorph.quality.verdicts.special(0, tiling["turns"], len(tiling["cones"]), tiling["lines"])
         return
     yield f"angle distortion added by whole tiles: {tiling['added_distortion']:.4f}"
     yield f"size range {tiling['size_range']:.3g}"

@@ -1,17 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Textures of the user's that are averaged over the turns of the map that shows them; the report keeps that."""
+"""Textures of the user's that are averaged over the turns of the map that shows them; objects keep that."""
 
-from dataclasses import asdict
-
+from ..maps.mapped import SEAMLESS
 from ..materials import material, user_texture
-from ..scene import gathering
-from . import report, stored, write
-
-
-def shown_turns(text):
-    """2, 4 or 6 where a map in a stored report turns by that, and a texture of the user's on it does not; else 0."""
-    turns, own = stored.turns(text), stored.parsed(text).get("dials", {}).get("own")
-    return turns if own and own.get("turns", 1) % turns else 0
+from ..scene import gathering, stored_dials, uv_maps
 
 
 def make(obj, coverings):
@@ -20,34 +12,34 @@ def make(obj, coverings):
 
     coverings : the materials for other objects, by what they show; one may be added
     """
-    text = obj.get(report.PROPERTY)
-    turns, entry = shown_turns(text), stored.parsed(text)
-    options = write.options_of(entry["dials"]) if turns else None
-    if options is None or options.own is None or not material.is_covered(obj):
+    made, names = stored_dials.made(obj), uv_maps.own_maps(obj.data)
+    turns = made.shown_turns if made else 0
+    if not turns or not names or not material.is_covered(obj):
         return None
     try:
-        own = user_texture.symmetric(options.own, turns)
+        own = user_texture.symmetric(user_texture.chosen(made.dials), turns)
     except ValueError as error:
         return str(error)
-    shown = entry["maps"][min(options.shown, len(entry["maps"]) - 1)]
-    repeats = max(1, round(options.checker_scale))
-    look = material.Look(options.texture, repeats, 0.0, True, own.on_turned(turns), True)
-    key = shown["name"], shown["stored_as"] == "attribute", look
+    dials = made.dials
+    shown, cells = (0, 0.0) if dials.main == SEAMLESS else (dials.shown, dials.checker_scale)
+    name, repeats = names[min(shown, len(names) - 1)], max(dials.repeats, round(cells))
+    look = material.Look(own.kind, repeats, 0.0, True, own.on_turned(turns), True)
+    key = name, not uv_maps.is_uv_map(obj.data, name), look
     coverings[key] = covering = coverings.get(key) or material.showing(*key)
     for each in (obj, *gathering.others(obj)):
         if material.is_covered(each):
             material.cover(each, covering)
-    report.store(obj, {**entry, "dials": {**entry["dials"], "own": asdict(own)}})
+        if of_each := stored_dials.made(each):
+            of_each.own_turns = of_each.averaged = turns
     return ""
 
 
 def as_before(own, objects):
     """The texture, averaged where one of the objects shows it so, and it still can be."""
-    for obj in objects:
-        before = stored.parsed(obj.get(report.PROPERTY)).get("dials", {}).get("own") or {}
-        if (before.get("kind"), before.get("name")) == (own.kind, own.name) and before.get("averaged", 1) != 1:
+    for made in filter(None, map(stored_dials.made, objects)):
+        if (made.dials.texture, made.dials.source) == (own.kind, own.name) and made.averaged != 1:
             try:
-                return user_texture.symmetric(own, before["averaged"])
+                return user_texture.symmetric(own, made.averaged)
             except ValueError:
                 return own
     return own

@@ -72,7 +72,7 @@ def modifier_result(step, obj):
     made.modifiers.clear()
     made.data = mesh
     made.name = mesh.name = f"{obj.name} Mapped"
-    made.pop(report.PROPERTY, None)
+    report.remove(made)
     put(made, RESULT_OF, obj)
     collections = [c for c in obj.users_collection if c.library is None] or [context.scene.collection]
     for collection in collections:

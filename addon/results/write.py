@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The end of a run, in Blender's main thread: maps are written to the objects and reported."""
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from .. import native
 from ..maps import mapped, packing
 from ..materials import material
-from ..materials.user_texture import Own
 from ..scene import gathering, mesh_io, stored_dials, targets, uv_maps
 from ..writing import transaction
-from . import heat, points, report, restore, shape, stored, tags
+from . import heat, points, report, restore, stored, tags
 from .report import Outcome, with_coarse_places
 
 
@@ -31,15 +30,6 @@ class WriteOptions:
     together: int = 1  # objects whose tiles have one size
     repeats: int = 1  # images of the texture side by side in a tile, at least
     stored: dict = field(default_factory=dict)  # the dials of which the maps are made
-
-
-def options_of(dials):
-    """The `WriteOptions` in a stored report; the checker where a texture of the user's is gone."""
-    values = {one.name: dials[one.name] for one in fields(WriteOptions) if one.name in dials}
-    if values.get("own"):
-        own = Own(**{name: shape.as_tuple(value) for name, value in values["own"].items()})
-        values |= {"own": own} if own.block else {"own": None, "texture": material.CHECKER}
-    return WriteOptions(**values)
 
 
 def write(step, found, results, options, time_has_passed=False):
@@ -102,7 +92,9 @@ def _write_object(step, outcome, target, made, options):
     report.store(obj, entry)
     step.remove(tags.empties_of(obj))
     if options.empties:
-        tags.write_empties(step.context, obj, *stored.marks(stored.whole_tilings(obj[report.PROPERTY])))
+        vertices, kinds = stored.points(obj, whole=True)
+        is_pole, is_marked = kinds == stored.POLE, kinds != stored.CONE
+        tags.write_empties(step.context, obj, vertices[is_marked], is_pole[is_marked])
     outcome.add(obj, target, made, written, entry)
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The dials that objects store: a property group of each, from which buttons start and to which runs write back."""
+"""The dials that objects store: a property group of each, from which buttons start and to which runs write back. In it
+lies another one, of what was made of them."""
 
 from contextlib import ExitStack, contextmanager
 
@@ -8,6 +9,7 @@ import bpy
 NAME = "holomorph_map"  # of the group, a property of objects
 OF_BLENDER = {"rna_type", "name"}  # properties of every group
 RULED_OUT = {"tiles": "size", "size": "tiles"}  # the one that is given counts alone
+MADE = "made"  # of what is known of the map, a property of the group
 MOVED = "moved"  # the name of the dial that is each object's own: points that were dragged
 
 _quiet = []  # not empty while dials are written and nothing is to follow
@@ -39,6 +41,40 @@ def write(obj, values):
         for name, value in values.items():
             if name in now and now[name] != value:
                 setattr(getattr(obj, NAME), name, value)
+
+
+def made(obj):
+    """The group of what is known of the map of an object, None without one. It is gone when it is written."""
+    if obj is None or not obj.is_property_set(NAME):
+        return None
+    found = getattr(getattr(obj, NAME), MADE)
+    return found if found.map else None
+
+
+def is_behind(obj):
+    """Whether the map of an object was made of other dials than it has now."""
+    found = made(obj)
+    return found is not None and read(found.dials) != of(obj)
+
+
+def known(obj):
+    """What `know` takes: what is known of the map of an object, and the dials that it was made of; () without one."""
+    found = made(obj)
+    if found is None:
+        return ()
+    names = {*found.bl_rna.properties.keys()} - {*OF_BLENDER, "dials"}
+    return {name: getattr(found, name) for name in names}, read(found.dials)
+
+
+def know(obj, values=None, dials=None):
+    """Stores what is known of the map of an object, {name: value}; without values that there is none."""
+    if values:
+        found = getattr(getattr(obj, NAME), MADE)
+        for owner, of_owner in ((found.dials, dials), (found, values)):
+            for name, value in of_owner.items():
+                setattr(owner, name, value)
+    elif obj.is_property_set(NAME):
+        getattr(obj, NAME).property_unset(MADE)
 
 
 def chosen(obj):

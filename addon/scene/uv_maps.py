@@ -120,8 +120,7 @@ def write_map(mesh, polygons, name, uv):
     own = "" if polygons.faces is None else _own_map(mesh, name)
     if own:
         overwrite_map(mesh, polygons, own, uv)
-        is_uv_map = own in mesh.uv_layers.keys()[: compatibility.UV_MAP_LIMIT]  # further ones are attributes as well
-        return WrittenMap(own, "uv_map" if is_uv_map else "attribute")
+        return WrittenMap(own, "uv_map" if is_uv_map(mesh, own) else "attribute")
     uv = _of_loops(mesh, polygons, uv, "" if polygons.faces is None else getattr(mesh.uv_layers.active, "name", ""))
     # References to layers do not survive the next `new`: look up by name, keep nothing.
     if len(mesh.uv_layers) < compatibility.UV_MAP_LIMIT:
@@ -131,6 +130,11 @@ def write_map(mesh, polygons, name, uv):
     attribute = mesh.attributes.new(name, "FLOAT2", "CORNER")
     write_values(_attribute_vectors(attribute, 2), uv)
     return WrittenMap(attribute.name, "attribute")
+
+
+def is_uv_map(mesh, name):
+    """Whether a map is one of the UV maps that Blender has room for, and no attribute."""
+    return name in mesh.uv_layers.keys()[: compatibility.UV_MAP_LIMIT]
 
 
 def _has_map(mesh, name):

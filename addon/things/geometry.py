@@ -4,6 +4,7 @@
 They have their origin at that of the world, where the points lie that their modifiers move to the surface.
 """
 
+import ast
 import math
 
 import bpy
@@ -11,14 +12,13 @@ import numpy as np
 
 from .. import compatibility
 from ..compatibility import Values
-from ..results import report, stored, tags
-from ..scene import gathering, mesh_io, uv_maps
+from ..results import tags
+from ..scene import gathering, mesh_io, stored_dials, uv_maps
 from . import pieces, placing, tree, wires
 
 PIECES_OF, WIRES_OF, CELLS_OF, RELIEF_OF = (  # custom properties
     f"holomorph_{kind}_of" for kind in ("geometry", "lines", "cells", "relief")
 )
-LATTICES = {6: "hex"}  # of maps of the button that turn
 SHARP = math.radians(35)  # angle of a piece's faces above which their edge is seen
 
 
@@ -31,9 +31,9 @@ def source(obj):
     name = main_map(obj)
     if not name:
         raise ValueError(f"{obj.name}: it has no UV map: press Seamless Tiling first")
-    asked, turns = stored.asked(obj.get(report.PROPERTY)), stored.turns(obj.get(report.PROPERTY))
-    uv = uv_maps.read_corners(obj.data, polygons, name).astype(np.float64)
-    return polygons, uv, asked.lattice if asked else LATTICES.get(turns, "square"), turns
+    made, uv = stored_dials.made(obj), uv_maps.read_corners(obj.data, polygons, name).astype(np.float64)
+    lattice, turns = (ast.literal_eval(made.lattice), made.turns) if made else ("square", 1)
+    return polygons, uv, lattice, turns
 
 
 def main_map(obj):

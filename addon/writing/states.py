@@ -43,13 +43,14 @@ class Properties:
 
 
 class DialsState:
-    """The dials of an object."""
+    """The dials of an object, and what is known of its map."""
 
     def __init__(self, obj):
-        self._object, self._before = obj, stored_dials.chosen(obj)
+        self._object, self._before, self._known = obj, stored_dials.chosen(obj), stored_dials.known(obj)
 
     def restore(self):
         stored_dials.choose(self._object, self._before)
+        stored_dials.know(self._object, *self._known)
 
 
 class ObjectState:

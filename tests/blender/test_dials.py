@@ -12,12 +12,8 @@ from loaded_addon import module
 from scenes import everything, mesh_object, select, sphere_arrays, stored_report, torus, uv
 from scenes import stored_poles as poles
 
-stored_dials, stored, follow, mapping, dials_view = (
-    module(name)
-    for name in (
-        *("scene.stored_dials", "results.stored"),
-        *("operators.follow", "operators.mapping", "operators.dials_view"),
-    )
+stored_dials, follow, mapping, dials_view = (
+    module(name) for name in ("scene.stored_dials", "operators.follow", "operators.mapping", "operators.dials_view")
 )
 DIALS = {
     "texture": "BRICKS",
@@ -38,17 +34,13 @@ DIALS = {
 }
 
 
-def is_behind(obj):
-    return stored.is_behind(stored_report(obj), obj)
-
-
 @pytest.mark.parametrize("dial", DIALS)
 def test_the_map_follows_and_is_that_of_the_button_and_of_a_script(dial):
     obj, other = torus(), torus("Other")
     select(obj)
     bpy.ops.uv.holomorphic_maps()
     setattr(obj.holomorph_map, dial, DIALS[dial])
-    assert not obj.holomorph_map.refused and not is_behind(obj)
+    assert not obj.holomorph_map.refused and not stored_dials.is_behind(obj)
     followed, made_of = uv(obj), stored_dials.of(obj)
     assert stored_report(obj)["dials"]["stored"] == made_of and made_of[dial] == DIALS[dial]
     assert mapping.press(obj) == {"FINISHED"}
@@ -66,7 +58,7 @@ def test_the_command_stores_what_it_is_asked_for(tmp_path):
     assert run.returncode == 0, run.stderr
     bpy.ops.wm.open_mainfile(filepath=str(target))
     obj = bpy.data.objects["Torus"]
-    assert (obj.holomorph_map.tiles, obj.holomorph_map.texture) == (30, "BRICKS") and not is_behind(obj)
+    assert (obj.holomorph_map.tiles, obj.holomorph_map.texture) == (30, "BRICKS") and not stored_dials.is_behind(obj)
     made = uv(obj)
     mapping.press(obj)
     assert np.array_equal(uv(obj), made)
@@ -110,13 +102,13 @@ def test_an_object_without_a_map_only_keeps_its_dials():
 def test_the_numbers_in_effect_are_shown_and_set():
     obj = mesh_object("Ball", *sphere_arrays(3))
     bpy.ops.uv.holomorphic_maps()
-    dials, found = obj.holomorph_map, stored.found(obj["holomorph_report"])
-    assert dials.tiles == 0 and dials.tiles_shown == found.tiles > 0
+    dials, tiles, width = obj.holomorph_map, obj.holomorph_map.made.tiles, obj.holomorph_map.made.width
+    assert dials.tiles == 0 and dials.tiles_shown == tiles > 0
     dials.by_size = True
-    assert dials.size == pytest.approx(found.width) and dials.size_shown == dials.size
+    assert dials.size == pytest.approx(width) and dials.size_shown == dials.size
     dials.by_size = False
-    dials.tiles_shown = 2 * found.tiles
-    assert dials.tiles == dials.tiles_shown == 2 * found.tiles
+    dials.tiles_shown = 2 * tiles
+    assert dials.tiles == dials.tiles_shown == 2 * tiles
 
 
 def test_before_the_first_map_there_is_no_number_of_tiles_but_a_button():
@@ -140,7 +132,11 @@ def test_undo_takes_dial_and_map_back_together():
     for step, value, expected in ((bpy.ops.ed.undo, 0.5, before), (bpy.ops.ed.redo, 1.0, after)):
         step()
         obj = bpy.data.objects["Torus"]
-        assert obj.holomorph_map.evenness == value and np.array_equal(uv(obj), expected) and not is_behind(obj)
+        assert (
+            obj.holomorph_map.evenness == value
+            and np.array_equal(uv(obj), expected)
+            and not stored_dials.is_behind(obj)
+        )
 
 
 def test_after_the_step_of_a_slider_that_waited_the_dials_are_those_of_the_map():
@@ -150,7 +146,7 @@ def test_after_the_step_of_a_slider_that_waited_the_dials_are_those_of_the_map()
         obj.holomorph_map.evenness = 1.0
     obj.holomorph_map.is_waiting = True
     follow._agree()
-    assert obj.holomorph_map.evenness == 0.5 and not is_behind(obj)
+    assert obj.holomorph_map.evenness == 0.5 and not stored_dials.is_behind(obj)
 
 
 def test_an_error_in_the_middle_leaves_the_map_and_says_that_the_dial_is_ahead(monkeypatch):
@@ -165,10 +161,10 @@ def test_an_error_in_the_middle_leaves_the_map_and_says_that_the_dial_is_ahead(m
     monkeypatch.setattr(module("results.write"), "with_coarse_places", fail)
     obj.holomorph_map.evenness = 1.0
     assert everything(obj) == before and obj["holomorph_report"] == report
-    assert obj.holomorph_map.refused == "no room" and obj.holomorph_map.evenness == 1.0 and is_behind(obj)
+    assert obj.holomorph_map.refused == "no room" and obj.holomorph_map.evenness == 1.0 and stored_dials.is_behind(obj)
     monkeypatch.undo()
     obj.holomorph_map.evenness = 0.9
-    assert not obj.holomorph_map.refused and not is_behind(obj)
+    assert not obj.holomorph_map.refused and not stored_dials.is_behind(obj)
 
 
 def test_a_texture_that_is_not_chosen_is_asked_for():
@@ -193,9 +189,9 @@ def test_tiles_keep_the_size_that_they_have_on_other_objects():
     large.scale = (3, 3, 3)
     select(small, large)
     bpy.ops.uv.holomorphic_maps()
-    before = stored.found(small["holomorph_report"]).tiles
+    before = small.holomorph_map.made.tiles
     small.holomorph_map.evenness = 0.4
-    assert stored.found(small["holomorph_report"]).tiles == pytest.approx(before, rel=0.2)
+    assert small.holomorph_map.made.tiles == pytest.approx(before, rel=0.2)
 
 
 OTHERS = {"tiles": 30, "evenness": 0.75, "direction": "Z", "texture": "WEAVE", "quarters": 1, "seams": True}
@@ -245,7 +241,7 @@ def test_a_point_stays_where_it_was_dragged_whatever_dial_is_turned(turns, neigh
     obj.holomorph_map.evenness = 0.25
     assert place in points(obj)
     bpy.ops.uv.holomorphic_automatic_points()
-    assert obj.holomorph_map.moved == "" and not is_behind(obj)
+    assert obj.holomorph_map.moved == "" and not stored_dials.is_behind(obj)
 
 
 def test_a_point_is_not_dragged_to_where_the_map_would_have_cuts():
@@ -284,7 +280,7 @@ def test_a_map_of_selected_faces_waits_for_the_button():
     bpy.ops.uv.holomorphic_maps(use_selection="FACES")
     before = uv(obj)
     obj.holomorph_map.evenness = 1.0
-    assert np.array_equal(uv(obj), before) and is_behind(obj)
+    assert np.array_equal(uv(obj), before) and stored_dials.is_behind(obj)
 
 
 @pytest.mark.parametrize(

@@ -1,15 +1,13 @@
 """Cones of maps that turn, dragged as poles are: by the operator as scripts call it, and a session without events."""
 
-import json
-
 import bpy
 import numpy as np
 import pytest
 from loaded_addon import module
 from scenes import everything, mesh_object, native, select, sphere_arrays, stored_report, torus, turned_jumps, uv
 
-drag_session, marks, overlay, stored = (
-    module(name) for name in ("operators.drag_session", "overlays.marks_view", "overlays.overlay", "results.stored")
+drag_session, marks, overlay, report = (
+    module(name) for name in ("operators.drag_session", "overlays.marks_view", "overlays.overlay", "results.report")
 )
 
 
@@ -195,11 +193,11 @@ def test_points_of_a_map_in_pieces_are_shown_and_stay():
     entry, places = stored_report(obj), sorted(cones(obj))
     part = entry["components"][0]
     part["tilings"] = [part.pop("tiling")]
-    obj["holomorph_report"] = json.dumps(entry)
+    report.store(obj, entry)
     points, kinds, _ = marks._points(obj, None)
     assert len(points) == len(places) and (kinds == marks.CONE).all()
-    found = stored.found(obj["holomorph_report"])
-    assert found.points == len(places) and found.movable == 0
+    made = obj.holomorph_map.made
+    assert made.point_count == len(places) and made.movable_count == 0
     with pytest.raises(RuntimeError, match="cut stay where they are: set Seams in Advanced to None"):
         move(f"0:{neighbour_of(obj, places[0])}")
 

@@ -198,7 +198,7 @@ def test_a_checker_of_two_squares_in_each_tile_and_other_objects_keep_theirs():
 def test_the_report_begins_with_words():
     obj = limb()
     press()
-    lines = [line.strip() for line in module("results.stored").summary(obj["holomorph_report"])]
+    lines = [line.strip() for line in obj.holomorph_map.made.summary.splitlines()]
     assert "seamless" in lines[2] and "quarter turns" in lines[2] and "cones" in lines[2]
     assert any(line.startswith("size range ") for line in lines)
     assert stored_report(obj)["dials"]["main"] == "AUTOMATIC"

@@ -122,8 +122,7 @@ def test_objects_with_one_mesh_both_get_the_report(are_both_selected):
     of_first, of_second = stored_report(first), stored_report(second)
     assert (of_second.pop("scale_of"), of_second.pop("object"), of_first.pop("object")) == ("First", "Second", "First")
     assert of_first == of_second
-    stored = module("results.stored")
-    assert stored.whole(of_second | {"scale_of": "First"}) == "In the scale of First" and not stored.whole(of_first)
+    assert [obj.holomorph_map.made.whole for obj in (first, second)] == ["", "In the scale of First"]
     own = second.material_slots[0].material.name == "Own"
     assert own != are_both_selected and first.material_slots[0].material.name != "Own"
 
@@ -139,11 +138,12 @@ def test_a_duplicate_of_the_same_shape_gets_the_report_without_a_word():
 def test_a_forest_of_duplicates_has_one_sentence_and_a_bounded_file():
     first, second = stretched_pair()
     trees = [duplicate(second) for _ in range(120)]
-    trees[-1]["holomorph_report"] = "of an earlier map"
+    trees[-1]["holomorph_report"] = trees[-1].holomorph_map.made.map = "of an earlier map"
     (target,) = module("scene.targets").collect([first])
     assert target.note == "Second and 120 more have the same mesh in another scale; the scale of First is used"
     bpy.ops.uv.holomorphic_maps()
     assert sum("holomorph_report" in tree for tree in trees) == 99 and "holomorph_report" not in trees[-1]
+    assert sum(tree.holomorph_map.made.map != "" for tree in trees) == 99 and not trees[-1].holomorph_map.made.map
 
 
 def test_poles_are_dragged_on_the_object_whose_scale_counts():

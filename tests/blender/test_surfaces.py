@@ -205,5 +205,5 @@ def test_the_panel_tells_kinds_and_moduli():
     obj = mesh_object("Tube", *tube_arrays())
     select(obj)
     run()
-    lines = "\n".join(module("results.stored").summary(obj["holomorph_report"]))
+    lines = obj.holomorph_map.made.summary
     assert "genus 0, 2 boundary loops" in lines and "modulus" in lines and "between" in lines

@@ -8,7 +8,6 @@ from loaded_addon import module
 from scenes import mesh_object, run, sphere_arrays, stored_report, uv
 
 averages, user_texture, image_io = map(module, ("materials.averages", "materials.user_texture", "scene.image_io"))
-symmetric, map_panel = map(module, ("results.symmetric", "interface.map_panel"))
 SIZE = 64
 
 
@@ -105,12 +104,12 @@ def test_one_click_and_what_is_told():
     obj = ball()
     image = noise()
     tile()
-    assert symmetric.shown_turns(obj["holomorph_report"]) == 4
+    assert obj.holomorph_map.made.shown_turns == 4
     before, colours = uv(obj), image_io.read_pixels(image)
     assert make() == {"FINISHED"}
     (group,) = groups(obj)
     assert sum(node.type == "TEX_IMAGE" for node in group.node_tree.nodes) == 4
-    assert symmetric.shown_turns(obj["holomorph_report"]) == 0
+    assert obj.holomorph_map.made.shown_turns == 0
     assert np.array_equal(uv(obj), before) and np.array_equal(image_io.read_pixels(image), colours)
     assert make() == {"CANCELLED"} and len(groups(obj)) == 1
 
@@ -143,7 +142,7 @@ def test_it_can_be_undone():
     bpy.ops.ed.undo_push(message="after")
     bpy.ops.ed.undo()
     obj = bpy.data.objects["Ball"]
-    assert not groups(obj) and symmetric.shown_turns(obj["holomorph_report"]) == 4
+    assert not groups(obj) and obj.holomorph_map.made.shown_turns == 4
 
 
 def stone():
@@ -219,7 +218,7 @@ def test_what_cannot_be_made_symmetric_is_told(name, capfd):
 def test_textures_of_ours_are_left_alone():
     obj = ball()
     tile(texture="SCALES")
-    assert symmetric.shown_turns(obj["holomorph_report"]) == 0 and make() == {"CANCELLED"}
+    assert obj.holomorph_map.made.shown_turns == 0 and make() == {"CANCELLED"}
     run(main="BALANCED")
     assert make() == {"CANCELLED"}
 
@@ -229,9 +228,9 @@ def test_the_panel_offers_it():
     obj = ball()
     noise()
     tile()
-    assert map_panel.shows_turns(obj["holomorph_report"])
+    assert obj.holomorph_map.made.shown_turns
     make()
-    assert not map_panel.shows_turns(obj["holomorph_report"])
+    assert not obj.holomorph_map.made.shown_turns
 
 
 def test_a_picture_that_became_wide_is_shown_as_it_is():

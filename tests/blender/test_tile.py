@@ -24,6 +24,7 @@ from scenes import (
     run,
     select,
     sphere_arrays,
+    stored_poles,
     stored_report,
     then,
     torus,
@@ -33,7 +34,7 @@ from scenes import (
     written,
 )
 
-stored_text = module("results.stored")
+stored = module("results.stored")
 
 
 @pytest.fixture
@@ -78,20 +79,14 @@ def tile(**options):
 
 
 def marks(obj):
-    vertices, is_pole = stored_text.marks(stored_text.tilings(obj["holomorph_report"]))
-    return vertices.tolist(), is_pole.tolist()
+    vertices, kinds = stored.points(obj)
+    return vertices.tolist(), (kinds == stored.POLE).tolist()
 
 
 def whole_jumps(obj):
     """Those of the UVs across each edge, at the ends that are not poles."""
     vertices, jumps = edge_jumps(obj)
-    found, is_pole = stored_text.marks(stored_text.tilings(obj["holomorph_report"]))
-    return jumps[~np.isin(vertices, found[is_pole])]
-
-
-def selected_poles(obj):
-    found, is_pole = stored_text.marks(stored_text.tilings(obj["holomorph_report"]))
-    return found[is_pole].tolist()
+    return jumps[~np.isin(vertices, stored_poles(obj))]
 
 
 @pytest.mark.parametrize("options", [{}, {"tiles": 200}, {"poles": "COUNT", "pole_count": 0}, {"rotation": 0.5}])
@@ -207,7 +202,7 @@ def test_selected_poles_go_to_their_parts(calls):
     tile(poles="SELECTED")
     assert sorted((call["poles"] for call in calls), key=str) == [[5, 155], "auto"]
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert [vertex for vertex in selected_poles(obj) if vertex >= count] == [count + 5, count + 155]
+    assert [vertex for vertex in stored_poles(obj) if vertex >= count] == [count + 5, count + 155]
 
 
 def painted(obj, vertices):
@@ -229,7 +224,7 @@ def test_the_vertex_group_says_where_poles_may_be(calls):
             (asked["poles"], None if asked["allowed"] is None else np.flatnonzero(asked["allowed"]).tolist())
         )
     assert sorted(allowed, key=str) == [("auto", list(range(count // 2))), (0, None)]
-    assert all(vertex < count // 2 for vertex in selected_poles(obj))
+    assert all(vertex < count // 2 for vertex in stored_poles(obj))
 
 
 @pytest.mark.parametrize(("group", "word"), [("Nothing", "no vertex group 'Nothing'"), ("Hidden", "above 0.5")])
@@ -324,7 +319,7 @@ def test_report_and_panel_begin_with_words(calls):
     assert ", seamless" in verdict and f"{len(residues)} poles" in verdict
     assert np.array_equal(residues, np.round(residues)) and np.array_equal(residues.sum(axis=0), (0, 0))
     assert min(part["tiling"]["orders"]) > 0
-    lines = [line.strip() for line in module("results.stored").summary(obj["holomorph_report"])]
+    lines = [line.strip() for line in obj.holomorph_map.made.summary.splitlines()]
     assert lines[:3] == ["1 map", "Part 1: genus 1", verdict]
     assert json.loads(bpy.data.texts["Holomorphic Report"].as_string())["objects"] == [stored_report(obj)]
 
@@ -337,10 +332,11 @@ def test_the_number_of_tiles_that_was_chosen_is_told(calls):
     assert written(obj, main="BALANCED").tiles == 0
 
 
-@pytest.mark.parametrize("stored", ["", "{", "[]", "null", '{"components": []}', '{"components": [{"genus": 1}]}'])
-def test_no_marks_without_a_tiling(stored):
-    vertices, is_pole = stored_text.marks(stored_text.tilings(stored))
-    assert len(vertices) == len(is_pole) == 0
+def test_no_marks_without_a_tiling():
+    obj = torus()
+    assert marks(obj) == ([], [])
+    run()
+    assert obj.holomorph_map.made.map and marks(obj) == ([], [])
 
 
 @pytest.mark.parametrize("mirrored", [False, True])

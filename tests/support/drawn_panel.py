@@ -39,5 +39,5 @@ def drawn(obj, width=220, is_edited=False):
     style = SimpleNamespace(widget=SimpleNamespace(points=11))
     preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0), ui_styles=[style])
     layout, context = Drawn(), SimpleNamespace(region=SimpleNamespace(width=width), preferences=preferences)
-    verdict_view.draw(layout, context, obj["holomorph_report"], is_edited)
+    verdict_view.draw(layout, context, obj.holomorph_map.made, is_edited)
     return layout

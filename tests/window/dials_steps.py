@@ -22,8 +22,7 @@ def uv():
 
 
 def is_behind():
-    stored = addon("results.stored")
-    return stored.is_behind(stored.parsed(obj()["holomorph_report"]), obj())
+    return addon("scene.stored_dials").is_behind(obj())
 
 
 def state():

@@ -22,8 +22,7 @@ def obj():
 
 
 def is_behind():
-    stored = addon("results.stored")
-    return stored.is_behind(stored.parsed(obj()["holomorph_report"]), obj())
+    return addon("scene.stored_dials").is_behind(obj())
 
 
 def uv():
@@ -45,8 +44,8 @@ def note_stages():
 
 def poles():
     stored = addon("results.stored")
-    vertices, is_pole = stored.marks(stored.tilings(obj()["holomorph_report"]))
-    return vertices[is_pole].tolist()
+    vertices, kinds = stored.points(obj())
+    return vertices[kinds == stored.POLE].tolist()
 
 
 def on_screen(vertex):

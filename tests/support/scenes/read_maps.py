@@ -17,8 +17,8 @@ def uv(obj, name="Holomorphic"):
 
 def stored_poles(obj):
     """Vertices."""
-    vertices, is_pole = stored.marks(stored.tilings(obj["holomorph_report"]))
-    return vertices[is_pole].tolist()
+    vertices, kinds = stored.points(obj)
+    return vertices[kinds == stored.POLE].tolist()
 
 
 def stored_report(obj):
