@@ -310,7 +310,7 @@ MUTATIONS = (
         ROOM + "choice/map.cpp",
         ("cones-cost", "tilings_) marks.cones +=", "tilings_) marks.cones *=", ASKED),
     )
-    | of(PACKAGE + "batch/textured.py", ("centre-of-turns", "+ np.array(found.centre) / images", "", GLB))
+    | of(PACKAGE + "batch/mapping.py", ("centre-of-turns", "+ np.array(found.centre) / images", "", GLB))
     | of(
         ROOM + "tiling/cones/turned_tiling.cpp",
         ("mirror-jumps", "low[1]) * std::conj(high[0]", "low[0]) * std::conj(high[1]", MIRRORED),

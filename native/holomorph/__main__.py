@@ -6,13 +6,13 @@ import contextlib
 import json
 import sys
 
-from . import Error, Surface, Verdict, __version__
-from .batch import mapping, textured
+from . import Error, Surface, Verdict
+from .batch import mapping
 from .batch.recipe import Maps, Output, Recipe, Tiles
 from .commands.compare_command import compare
 from .commands.console import Parser, ended, failed, shown, tell, warn
 from .commands.relief_command import relief
-from .core.value import plain, quoted
+from .core.value import quoted
 from .files import formats, whole_file
 from .maps.report import part_count
 from .mesh.checks import SOLVERS, check_options, check_thresholds
@@ -45,14 +45,13 @@ def main(arguments=None):
         formats.check_mesh(options.mesh)
         whole_file.check_places([options.mesh], options.output, [report], options.overwrite)
         _check_output(options.output, options.texture)
-        recipe = _recipe(options)
-        found = textured.symmetry(recipe)
+        recipe, found = mapping.turned(_recipe(options))
         check_options(options.solver, options.threads)
         check_thresholds(options.thresholds, options.solver)
     except (Error, ValueError, OSError) as error:
         return failed(EXIT_USAGE, error)
     try:
-        report = mapped(options, textured.resolved(recipe, found), found)
+        report = mapped(options, recipe, found)
     except (Error, OSError) as error:
         return failed(EXIT_REFUSED, error)
     return _status(report, options.strict)
@@ -144,20 +143,14 @@ def _recipe(options):
 
 def mapped(options, recipe, found):
     """The report of all components of the mesh file, as plain data; it and the mesh are written as the options say.
-    found : `textured.symmetry` of the recipe"""
+    found : the `ImageTurns` of the texture"""
     surface = Surface.read(options.mesh)
     warn(options.mesh, surface.repairs.notes)
     parts = mapping.map_parts(surface, recipe, threads=options.threads)
-    report = {
-        "holomorph": __version__,
-        "mesh": str(options.mesh),
-        "faces": len(surface.face_offsets) - 1,
-        "texture": plain(found and vars(found)),
-        **mapping.report(surface, parts, recipe),
-    }
+    report = mapping.report(surface, parts, recipe, found, mesh=str(options.mesh))
     if options.output and report["verdict"]:
         uv = mapping.main_uv(surface, parts, recipe.maps)
-        surface.write(options.output, textured.moved(uv, surface, parts, recipe, found), options.texture)
+        surface.write(options.output, mapping.moved(uv, surface, parts, recipe, found), options.texture)
     _write(report, options)  # last: what it tells of is in the file
     return report
 

@@ -118,6 +118,21 @@ def test_the_scheduler_is_killed_and_restarted(cluster, meshes, undisturbed, rec
     assert compared(outputs(out)) == compared(undisturbed)
 
 
+def test_interrupted(cluster, recipe, tmp_path):
+    """What hangs on a worker ends with the run: the worker does the next one, within the limits of that."""
+    cluster.start(1)
+    torus_obj(tmp_path / "hang.obj")
+    arguments = (tmp_path / "hang.obj", "--out", tmp_path / "out", "--recipe", recipe, "--dask", cluster.address)
+    process, end = subprocess.Popen(command(*arguments)), time.monotonic() + SECONDS
+    while not [work for worker in children(cluster.workers[0].pid) for work in children(worker)]:
+        assert time.monotonic() < end
+        time.sleep(0.1)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(SECONDS) == 130
+    assert run(*arguments, "--time", 1).returncode == 1
+    assert statuses(tmp_path / "out") == {"hang.obj": "time"}
+
+
 def test_no_scheduler(meshes, tmp_path):
     result = run(meshes, "--out", tmp_path / "out", "--dask", "tcp://127.0.0.1:1")
     assert result.returncode == 2

@@ -8,8 +8,7 @@ import holomorph
 import numpy as np
 import pytest
 from batch_runs import run, torus_obj
-from holomorph.batch import mapping, recipe, textured
-from holomorph.batch.errors import UsageError
+from holomorph.batch import UsageError, mapping, recipe
 
 
 @pytest.fixture(scope="module")
@@ -252,7 +251,7 @@ def test_maps_turn_as_the_texture_does(tmp_path):
 
 
 def test_without_a_texture_maps_are_shifted(torus):
-    wanted = textured.resolved(recipe.of({"tiling": {"turns": "auto", "lines": "free"}}), None)
+    wanted = mapping.turned(recipe.of({"tiling": {"turns": "auto", "lines": "free"}}))[0]
     assert (wanted.tiling.turns, wanted.tiling.lines) == (1, "automatic")
     (part,) = mapping.map_parts(torus, wanted)
     assert part.map.turns == 1

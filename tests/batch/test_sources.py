@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 from batch_runs import library, run, torus_obj
-from holomorph.batch import recipe, sources
-from holomorph.batch.errors import UsageError
+from holomorph.batch import UsageError, recipe, sources
 
 RECIPES = {
     "[maps]\nmian = 'balanced'": "mian is not a key of [maps]; did you mean main?",

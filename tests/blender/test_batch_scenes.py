@@ -65,12 +65,11 @@ def test_a_file_of_another_program_is_read_and_its_map_is_written(suffix, progra
     path, folder = tmp_path / f"scene{suffix}", tmp_path / "opened"
     write(path)
     folder.mkdir()
-    opening = blend.Opening("scene", "key", path, 1, folder, tmp_path, program)
-    record, files = opening.run()
+    record, files = task.Task("scene", "key", path, 1, folder, tmp_path, blender=program).run()
     assert record["status"] == "done", record["message"]
     for name, content in files.items():
         (folder / name).write_bytes(content)
-    ((name, arrays, corners),) = opening.objects()
+    ((name, arrays, corners),) = blend.objects(folder)
     options = recipe.of({"maps": {"main": "balanced"}, "output": {"formats": ["npz", "blend"]}})
     record, files = task.Task(
         name, "key", arrays, corners, tmp_path, tmp_path, options, (str(path), name), program

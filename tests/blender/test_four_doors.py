@@ -106,12 +106,11 @@ def by_command(path, folder, turns):
 def by_batch(path, folder, turns):
     tasks = [(path, None)]
     if path.suffix not in READ:
-        opening = blend.Opening(path.name, "key", path, 1, folder, folder, BLENDER)
-        record, files = opening.run()
+        record, files = task.Task(path.name, "key", path, 1, folder, folder, blender=BLENDER).run()
         assert record["status"] == "done", record["message"]
         for name, content in files.items():
             (folder / name).write_bytes(content)
-        tasks = [(arrays, (str(path), name)) for name, arrays, _ in opening.objects()]
+        tasks = [(arrays, (str(path), name)) for name, arrays, _ in blend.objects(folder)]
     wanted = recipe.of({"output": {"formats": ["npz"]}, "tiling": {"turns": turns}})
     entries, joined, sizes = [], 0, []
     for source, scene in tasks:

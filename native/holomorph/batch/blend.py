@@ -3,51 +3,32 @@
 import json
 import shutil
 import subprocess
-import time
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from .._native import InvalidMesh
 from ..files import formats, scenes, whole_file
-from .errors import DONE, REFUSED, UsageError
+from . import UsageError
 
 ARRAYS = ".npz"  # vertices, corner_vertices, face_offsets, and seams, the (#S, 2) vertices of the marked edges
 OBJECTS = "objects.json"  # [[name, file, number of corners], ...]
 SCRIPT = Path(__file__).with_name("in_blender.py")
 
 
-@dataclass(frozen=True)
-class Opening:
-    """A task like those of assets: reads the mesh objects of a scene."""
+def opened(task):
+    """{file: bytes}: the arrays of each mesh object of a scene, and `OBJECTS`. @throws InvalidMesh"""
+    with TemporaryDirectory(dir=task.work) as folder:
+        try:
+            _run(task.blender, task.path, "read", folder)
+        except InvalidMesh as error:
+            raise InvalidMesh(scenes.fault(task.path) or str(error)) from error
+        return {path.name: path.read_bytes() for path in Path(folder).iterdir()}
 
-    name: str
-    key: str
-    path: Path
-    size: int
-    folder: Path
-    work: Path
-    blender: str
-    problem: str = ""  # why it cannot be read
 
-    def run(self):
-        """(record, files), as `task.Task.run`."""
-        start = time.perf_counter()
-        with TemporaryDirectory(dir=self.work) as folder:
-            try:
-                if self.problem:
-                    raise InvalidMesh(self.problem)
-                _run(self.blender, self.path, "read", folder)
-            except InvalidMesh as error:
-                told = not self.problem and scenes.fault(self.path) or str(error)
-                return {"status": REFUSED, "message": told, "seconds": time.perf_counter() - start}, {}
-            files = {path.name: path.read_bytes() for path in Path(folder).iterdir()}
-        return {"status": DONE, "message": "", "seconds": time.perf_counter() - start}, files
-
-    def objects(self):
-        """[(name, file, number of corners)] of what was read."""
-        listed = json.loads((self.folder / OBJECTS).read_bytes())
-        return [(name, self.folder / file, corners) for name, file, corners in listed]
+def objects(folder):
+    """[(name, file, number of corners)] of a scene whose files lie in a folder."""
+    listed = json.loads((folder / OBJECTS).read_bytes())
+    return [(name, folder / file, corners) for name, file, corners in listed]
 
 
 def program(wanted):
@@ -76,8 +57,8 @@ def _run(blender, scene, *arguments):
     file = [] if scene is None else [str(Path(scene).absolute())]
     importers = [name for path in file for name in formats.IMPORTERS[Path(path).suffix.lower()]]
     opened = [] if importers else file
-    command = [blender, *options, *opened, "--python", str(SCRIPT), "--"]
-    command += [*file, *map(str, arguments), *importers]
+    words = [*file, *map(str, arguments), *importers]
+    command = [blender, *options, *opened, "--python", str(SCRIPT), "--", *words]
     run = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
     if run.returncode != 0:
         said = [line for line in run.stderr.splitlines() if line.strip()] or ["nothing"]

@@ -8,13 +8,14 @@ import contextlib
 import queue
 import threading
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import distributed
 
-from .errors import CRASHED, EngineError, UsageError
+from . import CRASHED, EngineError, UsageError
 from .journal import publish, stored
-from .workers import MEMORY_SHARE, Limits, Stopped, Worker, machine_memory
+from .workers import MEMORY_SHARE, Worker, machine_memory, records
 
 CONNECT_SECONDS = 10.0
 CLOSE_SECONDS = 1.0
@@ -33,18 +34,17 @@ _started = []  # the workers of all threads of this process
 class Cluster:
     """A scheduler. @throws UsageError where it does not answer"""
 
-    def __init__(self, address, limits):
-        self._address, self._limits = address, limits
+    def __init__(self, address):
+        self._address, self._futures = address, []
         try:
             self._client = self._connected()
         except (*GONE, ValueError, TypeError) as error:  # the last at a tls:// address without a certificate
             raise UsageError(f"--dask: no scheduler answers at {address}: {error}") from error
 
     def run(self, tasks):
-        """Yields the record of each task as it is done, the largest first.
-
-        Raises StorageError, and EngineError where the scheduler stays away."""
-        waiting = {task.key: task for task in sorted(tasks, key=lambda task: (-task.size, task.name))}
+        """Yields the record of each task as it is done. Raises StorageError, and EngineError where the scheduler stays
+        away."""
+        waiting = {task.key: task for task in tasks}
         try:
             while waiting:
                 try:
@@ -54,12 +54,12 @@ class Cluster:
         finally:
             if waiting:
                 with contextlib.suppress(*GONE):
-                    self._client.run(stop)
+                    self._client.cancel(self._futures)
+                    self._client.run(stop, tasks[0].work)
 
     def _connected(self):
-        if Path(self._address).is_file():
-            return distributed.Client(scheduler_file=self._address, timeout=CONNECT_SECONDS)
-        return distributed.Client(self._address, timeout=CONNECT_SECONDS)
+        place = {"scheduler_file" if Path(self._address).is_file() else "address": self._address}
+        return distributed.Client(**place, timeout=CONNECT_SECONDS)
 
     def _reconnect(self):
         with contextlib.suppress(*GONE):
@@ -76,49 +76,41 @@ class Cluster:
 
     def _done(self, waiting):
         """Yields records and takes their tasks out of `waiting`. @throws GONE"""
-        ready, futures = queue.Queue(), []
+        ready, self._futures = queue.Queue(), []  # forgotten futures are not computed
         for rank, task in enumerate(waiting.values()):
-            future = self._client.submit(work, task, self._limits, key=f"holomorph-{task.key}", priority=-rank)
+            future = self._client.submit(work, task, key=f"holomorph-{task.key}", priority=-rank)
             future.add_done_callback(lambda future, task=task: ready.put((task, future)))
-            futures.append(future)  # forgotten futures are not computed
+            self._futures.append(future)
         while waiting:
             try:
                 task, future = ready.get(timeout=LOOK_SECONDS)
             except queue.Empty:
-                self._check(futures)
+                if self._client.status != "running" or any(future.status == "lost" for future in self._futures):
+                    raise distributed.comm.CommClosedError from None
                 continue
-            yield self._record(task, future)
+            try:
+                record = future.result()
+            except distributed.KilledWorker as error:
+                message = f"several Dask workers stopped while working on it: {error}"
+                record = publish(task, {"status": CRASHED, "message": message, "seconds": 0.0}, {})
+            yield record
             del waiting[task.key]
 
-    def _check(self, futures):
-        if self._client.status != "running" or any(future.status == "lost" for future in futures):
-            raise distributed.comm.CommClosedError
 
-    @staticmethod
-    def _record(task, future):
-        try:
-            return future.result()
-        except distributed.KilledWorker as error:
-            message = f"several Dask workers stopped while working on it: {error}"
-            return publish(task, {"status": CRASHED, "message": message, "seconds": 0.0}, {})
-
-
-def work(task, limits):
+def work(task):
     """On a Dask worker: the record of a task, which may have been done by one that was lost before it could tell."""
     if not hasattr(_own, "worker"):
-        _own.worker = Worker(Limits(limits.memory or _share(), limits.seconds, limits.threads))
+        _own.worker = Worker()
         _started.append(_own.worker)
-    try:
-        return stored(task) or _own.worker.do(task)
-    except Stopped:
-        del _own.worker  # by a run that ended; this is another one
-        return work(task, limits)
+    limits = replace(task.limits, memory=task.limits.memory or _share())
+    return stored(task) or next(records([replace(task, limits=limits)], [_own.worker]))
 
 
-def stop():
-    """Runs on a Dask worker: cancels its work."""
-    while _started:
-        _started.pop().stop()
+def stop(folder):
+    """Runs on a Dask worker: ends its work for the run that writes into this folder first."""
+    for worker in _started:
+        if worker.task and worker.task.work == folder:
+            worker.stop()
 
 
 def _share():

@@ -4,21 +4,23 @@ import contextlib
 import importlib.util
 import os
 import re
+import sys
+import time
+from collections import Counter
 from functools import partial
 from pathlib import Path
 
-from ..commands.console import Parser, failed, shown, tell
+from ..commands.console import Parser, failed, say, shown, tell
 from ..core.value import counted
 from ..quality.verdicts import LEVELS
-from . import blend, progress, recipe, sources, workers
-from .errors import DONE, EngineError, StorageError, UsageError
+from . import DONE, EngineError, StorageError, UsageError, blend, overview, recipe, sources, workers
 from .journal import Journal, stored, storing
-from .overview import Overview, counts
 from .plan import Plan
+from .task import Limits
 
 ALL_DONE, SOME_FAILED, USAGE, STRICT, STORAGE, ENGINE, MACHINE = range(7)  # exit codes; see docs/batch/results.md
 UNITS = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
-DEFAULT_SECONDS = 1800.0
+EVERY = 10.0  # seconds between lines about how far a batch is
 UNFIT = LEVELS[LEVELS.index("fair") + 1 :]
 
 
@@ -56,7 +58,7 @@ def _options(arguments):
     )
     parser.add_argument("--memory", type=_bytes, metavar="SIZE", help="memory limit of each asset, such as 4G")
     parser.add_argument(
-        "--time", type=_seconds, default=DEFAULT_SECONDS, metavar="S", help="time limit of each asset, in seconds"
+        "--time", type=_seconds, default=Limits.seconds, metavar="S", help="time limit of each asset, in seconds"
     )
     parser.add_argument("--blender", metavar="PROGRAM", help="program for .blend files (default: blender)")
     parser.add_argument("--retry", action="store_true", help="retry assets that were not done")
@@ -77,19 +79,20 @@ def _run(options):
     journal = Journal(os.path.realpath(options.out), "{}-of-{}".format(*options.share) if options.share else "")
     execute, limits = _engine(options)
     with journal.locked():
-        plan = Plan(found, journal, wanted, limits.threads, program, slice(number - 1, None, count))
+        plan = Plan(found, journal, wanted, limits, program, slice(number - 1, None, count))
         try:
             _do(plan.openings, "file", execute, options.retry)
             records = _do(plan.tasks(), "asset", execute, options.retry)
         finally:
             if not options.share:
-                Overview(journal, plan.tasks() + plan.unopened()).write()
+                overview.write(journal, plan.tasks() + plan.unopened())
     return _exit_code(records + [stored(opening) for opening in plan.unopened()], options)
 
 
 def _exit_code(records, options):
     """Says how many assets there are of each status."""
-    told = ", ".join(f"{count} {status}" for status, count in counts(records).items())
+    counts = Counter(record["status"] for record in records)
+    told = ", ".join(f"{counts[status]} {status}" for status in sorted(counts, key=lambda s: (s != DONE, s)))
     with storing():
         tell(f"{counted(len(records), 'asset')}: {told or 'none'}; see {shown(str(options.out / 'index.html'))}\n")
     if any(record["status"] != DONE for record in records) and not options.report_only:
@@ -107,32 +110,45 @@ def _engine(options):
     if options.dask:
         if importlib.util.find_spec("distributed") is None:
             raise UsageError('--dask needs the library distributed: pip install "holomorph[dask]"')
-        from . import cluster
+        from .cluster import Cluster
 
-        limits = workers.Limits(options.memory or 0, options.time)
-        return cluster.Cluster(options.dask, limits).run, limits
+        return Cluster(options.dask).run, Limits(options.memory or 0, options.time)
     cores = os.cpu_count() or 1
     count = options.workers or cores
     memory = options.memory or int(workers.MEMORY_SHARE * workers.machine_memory() / count)
-    limits = workers.Limits(memory, options.time, max(1, cores // count))
-    return partial(workers.run, limits=limits, count=count), limits
+    return partial(workers.run, count=count), Limits(memory, options.time, max(1, cores // count))
 
 
 def _do(tasks, noun, execute, retries):
-    """Does the tasks that have no record yet, and returns the records of all."""
+    """Does the tasks that have no record yet, the largest first, and returns the records of all."""
     records = {task.key: stored(task) for task in tasks}
     waiting = [
         task for task in tasks if (record := records[task.key]) is None or (retries and record["status"] != DONE)
     ]
     if waiting:
-        bar = progress.bar(len(waiting), noun)
-        with contextlib.closing(bar), contextlib.closing(execute(waiting)) as results:
-            for record in results:
+        waiting.sort(key=lambda task: (-task.size, task.name))
+        said = time.monotonic()
+        with contextlib.closing(execute(waiting)) as results, _bar(len(waiting), noun) as bar:
+            for count, record in enumerate(results, 1):
                 records[record["key"]] = record
-                bar.update()
+                if bar is not None:
+                    bar.update()
+                elif time.monotonic() - said > EVERY:
+                    said = time.monotonic()
+                    say(f"holomorph: {count} of {len(waiting)} {noun}s")
                 if record["status"] != DONE:
-                    bar.write(shown(f"{record['name']}: {record['status']}: {record['message']}"))
+                    line = shown(f"{record['name']}: {record['status']}: {record['message']}")
+                    say(line) if bar is None else bar.write(line, file=sys.stderr)
     return list(records.values())
+
+
+def _bar(total, noun):
+    """How far a batch is, with an estimate, on the error stream, by tqdm: None without it or a terminal."""
+    if importlib.util.find_spec("tqdm") is None or sys.stderr is None or not sys.stderr.isatty():
+        return contextlib.nullcontext()
+    import tqdm
+
+    return tqdm.tqdm(total=total, unit=noun, smoothing=0.05)
 
 
 def _positive(text):

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from ..files import whole_file
 from ..quality.verdicts import LEVELS
-from .errors import ALL, StorageError, UsageError
+from . import ALL, StorageError, UsageError
 
 RECORD = "record.json"
 MOST_BYTES = 2**24  # of a record

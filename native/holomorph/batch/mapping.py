@@ -1,17 +1,22 @@
-"""The maps of one mesh by a recipe: those of its parts, side by side in the UV plane."""
+"""The maps of one mesh by a recipe: those of its parts, side by side in the UV plane, as its texture turns."""
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from .._native import Error, TopologyError
+from .._native import Error, TopologyError, __version__
+from ..core.value import plain
+from ..files import textures
 from ..maps import arrangement
 from ..maps.automatic_map import automatic_maps
 from ..maps.automatic_structure import automatic_structure
 from ..maps.map import Map
 from ..maps.report import parts_report
 from ..mesh.origin import on_part
+from ..tiles.height_image import height_image
+from ..tiling.image_turns import image_turns
+from ..tiling.turned import AUTO, AUTOMATIC, LINED_TURNS
 
 
 @dataclass(eq=False)
@@ -42,10 +47,16 @@ def map_parts(surface, recipe, cut_edges=None, threads=None):
     return parts
 
 
-def report(surface, parts, recipe):
-    """What is known of the mesh and its parts, see `parts_report`."""
+def report(surface, parts, recipe, texture=None, **names):
+    """What is known of the mesh and its parts, see `parts_report`. texture : its `ImageTurns`; names : of the mesh"""
     given = [(part.surface, part.map, part.reason, "") for part in parts]
-    return parts_report(given, surface.refused, surface.repairs, arrangement_of(recipe.maps))
+    return {
+        "holomorph": __version__,
+        **names,
+        "faces": len(surface.face_offsets) - 1,
+        "texture": plain(texture and vars(texture)),
+        **parts_report(given, surface.refused, surface.repairs, arrangement_of(recipe.maps)),
+    }
 
 
 def main_uv(surface, parts, maps):
@@ -125,3 +136,27 @@ def _main(part, maps):
 def _tiling_options(wanted):
     direction = None if wanted.direction == "none" else wanted.direction
     return asdict(wanted) | {"tiles": wanted.tiles or None, "direction": direction}
+
+
+def turned(recipe):
+    """(the `Recipe` with a number of turns, where it leaves that to its texture, and the `ImageTurns` of the texture by
+    its brightness, None where maps do not turn). Files repeat images in squares: those that look the same after a sixth
+    turn have half turns there. Raises ValueError, OSError as `height_image`."""
+    texture, tiling, found = recipe.output.texture, recipe.tiling, None
+    if texture is not None and tiling.turns != 1:
+        checker = np.kron(np.eye(2), np.ones((2, 2)))
+        found = image_turns(checker if texture == textures.CHECKER else height_image(texture)[::-1])
+        found = replace(found, turns=2) if found.turns == 6 else found
+    if tiling.turns != AUTO:
+        return recipe, found
+    turns = found.turns if found else 1
+    lines = tiling.lines if turns in LINED_TURNS else AUTOMATIC
+    return replace(recipe, tiling=replace(tiling, turns=turns, lines=lines)), found
+
+
+def moved(uv, surface, parts, recipe, found):
+    """(#C, 2) UVs of files. Where a map turns, the centre of the texture's turns lies at the corners of tiles."""
+    if found is None or all(part.map is None or part.map.turns == 1 for part in parts):
+        return uv
+    images = textures.checker_squares(surface, uv) / 2 if recipe.output.texture == textures.CHECKER else 1
+    return uv + np.array(found.centre) / images

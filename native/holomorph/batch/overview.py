@@ -5,13 +5,13 @@ import csv
 import importlib.util
 import io
 import json
+from itertools import zip_longest
 from pathlib import Path
 from urllib.parse import quote
 
 from ..commands.console import shown
 from ..maps.report import part_count
 from ..quality.verdicts import LEVELS, special, told
-from .errors import DONE
 from .journal import noted
 
 TEMPLATE = Path(__file__).with_name("overview.html")
@@ -21,47 +21,16 @@ SHOWN = 3  # descriptions and reasons of an asset's parts
 ASSET_COLUMNS = ("name", "status", "message", "seconds", "part")
 
 
-class Overview:
-    """An overview of the results of tasks; those that are not done yet are left out."""
-
-    def __init__(self, journal, tasks):
-        self._journal = journal
-        self._assets = [found for found in map(_asset, sorted(tasks, key=lambda task: task.name)) if found]
-
-    def write(self):
-        """@throws StorageError"""
-        rows = [row for asset in self._assets for row in _rows(asset)]
-        columns = _columns(rows)
-        self._journal.write("summary.csv", _as_csv(rows, columns))
-        if importlib.util.find_spec("pyarrow") is not None:
-            self._journal.write("summary.parquet", _as_parquet(rows, columns))
-        entries = json.dumps([self._entry(asset) for asset in self._assets], allow_nan=False).replace("<", "\\u003c")
-        self._journal.write("index.html", TEMPLATE.read_text(encoding="utf-8").replace(PLACE, entries).encode())
-
-    def _entry(self, asset):
-        """What the page shows of an asset as a whole."""
-        task, record, report = asset
-        parts = [part for part in report.get("components", []) if part["done"]]
-        reasons = [part["reason"] for part in report.get("components", []) if not part["done"]]
-        whole, picture = report.get("whole") or {}, task.folder / "picture.png"
-        return {
-            "name": shown(task.name),
-            "status": record["status"],
-            "message": shown(record["message"] or "; ".join(filter(None, [*_words(report), _brief(reasons)]))),
-            "seconds": record["seconds"],
-            "faces": report.get("faces"),
-            "parts": part_count(report.get("components", [])),
-            "done": part_count(parts),
-            "genus": [part["genus"] for part in parts],
-            "loops": [part["boundary_count"] for part in parts],
-            "size": whole.get("size_range"),
-            "angle": whole.get("mean_angle"),
-            "map": _brief(map(_description, parts)),
-            "verdict": (report.get("verdict") or {}).get("level", ""),
-            "rank": LEVELS.index(report["verdict"]["level"]) if report.get("verdict") else None,
-            "folder": quote(task.folder.relative_to(self._journal.folder).as_posix()) + "/",
-            "picture": _data_address(picture) if "picture.png" in record["files"] else "",
-        }
+def write(journal, tasks):
+    """The overview of the results of tasks; those that are not done yet are left out. @throws StorageError"""
+    assets = [found for found in map(_asset, sorted(tasks, key=lambda task: task.name)) if found]
+    rows = [row for asset in assets for row in _rows(asset)]
+    columns = list(dict.fromkeys([*ASSET_COLUMNS, *(name for row in rows for name in row)]))  # of parts as they occur
+    journal.write("summary.csv", _as_csv(rows, columns))
+    if importlib.util.find_spec("pyarrow") is not None:
+        journal.write("summary.parquet", _as_parquet(rows, columns))
+    entries = json.dumps([_entry(asset, journal) for asset in assets], allow_nan=False).replace("<", "\\u003c")
+    journal.write("index.html", TEMPLATE.read_text(encoding="utf-8").replace(PLACE, entries).encode())
 
 
 def _asset(task):
@@ -73,15 +42,38 @@ def _asset(task):
     return task, record, report
 
 
-def _words(report):
-    """The verdicts in words: what is seen of a texture, and what a bake meets."""
-    return told(report)
+def _entry(asset, journal):
+    """What the page shows of an asset as a whole."""
+    task, record, report = asset
+    components, whole, verdict = report.get("components", []), report.get("whole") or {}, report.get("verdict")
+    parts = [part for part in components if part["done"]]
+    reasons = [part["reason"] for part in components if not part["done"]]
+    seen = [*told(report), _brief(reasons)]  # of a texture, and what a bake meets
+    return {
+        "name": shown(task.name),
+        "status": record["status"],
+        "message": shown(record["message"] or "; ".join(filter(None, seen))),
+        "seconds": record["seconds"],
+        "faces": report.get("faces"),
+        "parts": part_count(components),
+        "done": part_count(parts),
+        "genus": [part["genus"] for part in parts],
+        "loops": [part["boundary_count"] for part in parts],
+        "size": whole.get("size_range"),
+        "angle": whole.get("mean_angle"),
+        "map": _brief(map(_description, parts)),
+        "verdict": verdict["level"] if verdict else "",
+        "rank": LEVELS.index(verdict["level"]) if verdict else None,
+        "folder": quote(task.folder.relative_to(journal.folder).as_posix()) + "/",
+        "picture": _data_address(task.folder / "picture.png") if "picture.png" in record["files"] else "",
+    }
 
 
 def _brief(texts):
     """The first of what is told of several parts; report.json has all."""
-    told = list(dict.fromkeys(texts))
-    return "; ".join(told[:SHOWN]) + (f"; and {len(told) - SHOWN} more" if len(told) > SHOWN else "")
+    distinct = list(dict.fromkeys(texts))
+    more = f"; and {len(distinct) - SHOWN} more" if len(distinct) > SHOWN else ""
+    return "; ".join(distinct[:SHOWN]) + more
 
 
 def _description(part):
@@ -98,13 +90,12 @@ def _data_address(picture):
 
 def _rows(asset):
     """A row for each part of an asset, one where it has none."""
-    task, record, report = asset
-    told = {"name": shown(task.name), "status": record["status"], "message": shown(record["message"])}
-    common = told | {"seconds": record["seconds"]}
-    timings = record.get("timings", [])
+    _, record, report = asset
+    common = {name: shown(record[name]) for name in ("name", "status", "message")} | {"seconds": record["seconds"]}
+    components = report.get("components", [])
     rows = [
-        common | {"part": number} | _flat(part | {"timings": timings[number] if number < len(timings) else None})
-        for number, part in enumerate(report.get("components", []))
+        common | {"part": number} | _flat(part | {"timings": timings})
+        for number, (part, timings) in enumerate(zip_longest(components, record.get("timings", [])[: len(components)]))
     ]
     return rows or [common | {"part": None}]
 
@@ -118,11 +109,6 @@ def _flat(entry, prefix=""):
         else:
             flat[prefix + name] = json.dumps(value) if isinstance(value, list) else value
     return flat
-
-
-def _columns(rows):
-    """The columns: those of the asset, then those of the parts in the order in which they occur."""
-    return list(dict.fromkeys([*ASSET_COLUMNS, *(name for row in rows for name in row)]))
 
 
 def _as_csv(rows, columns):
@@ -154,11 +140,3 @@ def _one_kind(values):
     if str in kinds and len(kinds) > 1:
         return [None if value is None else str(value) for value in values]
     return [float(value) if type(value) is int else value for value in values] if float in kinds else values
-
-
-def counts(records):
-    """How many records there are of each status, done ones first."""
-    found = {}
-    for record in records:
-        found[record["status"]] = found.get(record["status"], 0) + 1
-    return dict(sorted(found.items(), key=lambda entry: (entry[0] != DONE, entry[0])))

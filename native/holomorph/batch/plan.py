@@ -1,23 +1,24 @@
 """From sources to tasks: what there is to do in an output folder, and where the results of each asset are there."""
 
 import hashlib
+import json
 
+from .. import __version__
 from ..files.names import marked, part, told_apart
 from . import blend, sources
 from .journal import RECORD, noted
-from .task import Task, key
+from .task import Task
 
 LONGEST = 1000  # of the whole path below the output folder; systems take 4096
 ASSETS, SCENES = "assets", ".blend"  # folders of the results: of assets, and of what Blender read of scenes
-KINDS = (*sources.MESHES, *sources.SCENES)
 
 
 def of_folder(name):
-    """A folder of assets as one part of a path. Where it has a suffix of `KINDS`, an asset may have its name, too:
+    """A folder of assets as one part of a path. Where it has a suffix of a source, an asset may have its name, too:
     its dot is told apart."""
     plain = part(name)
     stem, dot, suffix = plain.rpartition(".")
-    return f"{stem}%2E{suffix}" if dot and f".{suffix.lower()}" in KINDS else plain
+    return f"{stem}%2E{suffix}" if dot and f".{suffix.lower()}" in sources.WANTED else plain
 
 
 def of_source(name):
@@ -33,11 +34,12 @@ class Plan:
     found : all sources, which tell each other's folders apart; share : those of this run
     """
 
-    def __init__(self, found, journal, recipe, threads, blender, share=slice(None)):
-        self._journal, self._recipe, self._threads, self._blender = journal, recipe, threads, blender
+    def __init__(self, found, journal, recipe, limits, blender, share=slice(None)):
+        self._journal, self._recipe, self._more = journal, recipe, {"blender": blender, "limits": limits}
         self._places = told_apart([source.name for source in found], of_source)
-        self.openings = [self._opening(source) for source in found[share] if sources.is_scene(source.path)]
-        self._meshes = [self._mesh(source) for source in found[share] if not sources.is_scene(source.path)]
+        tasks = [self._of_source(source) for source in found[share]]
+        self.openings = [task for task in tasks if task.recipe is None]
+        self._meshes = [task for task in tasks if task.recipe]
 
     def tasks(self):
         """The tasks of the mesh files, and of the objects of the scenes that were read."""
@@ -48,46 +50,28 @@ class Plan:
         """The scenes that were not read: each is an asset in itself, which is not done."""
         return [opening for opening in self.openings if not _is_read(opening)]
 
-    def _opening(self, source):
+    def _of_source(self, source):
         problem, digest = _examined(source)
-        return blend.Opening(
-            source.name,
-            digest,
-            source.path.absolute(),
-            source.size,
-            self._journal.folder / SCENES / self._places[source.name],
-            self._journal.work,
-            self._blender,
-            problem,
-        )
-
-    def _mesh(self, source):
-        problem, digest = _examined(source)
-        place = self._places[source.name]
-        return self._task(source.name, place, source.path, source.size, digest, problem=problem)
+        is_scene = sources.is_scene(source.path)
+        folder, recipe = (SCENES, None) if is_scene else (ASSETS, self._recipe)
+        place = f"{folder}/{self._places[source.name]}"
+        return self._task(source.name, digest, source.path, source.size, place, recipe, problem=problem)
 
     def _objects(self, opening):
-        found = list(opening.objects())
+        found = blend.objects(opening.folder)
         folders = told_apart([name for name, *_ in found], part)
         for name, path, corners in found:
             shown = name.replace("%", "%25").replace("/", "%2F")
-            place = f"{self._places[opening.name]}/{folders[name]}"
+            place = f"{ASSETS}/{self._places[opening.name]}/{folders[name]}"
             scene = str(opening.path), name
-            yield self._task(f"{opening.name}/{shown}", place, path, corners, opening.key, scene=scene)
+            yield self._task(f"{opening.name}/{shown}", opening.key, path, corners, place, self._recipe, scene=scene)
 
-    def _task(self, name, place, path, size, digest, **more):
-        return Task(
-            name=name,
-            key=key(digest, name, self._recipe),
-            path=path.absolute(),
-            size=size,
-            folder=self._journal.folder / ASSETS / place,
-            work=self._journal.work,
-            recipe=self._recipe,
-            blender=self._blender,
-            threads=self._threads,
-            **more,
-        )
+    def _task(self, name, digest, path, size, place, recipe, **more):
+        """digest : a hash of the bytes of the source"""
+        parts = digest, name, recipe and recipe.canonical, __version__
+        key = hashlib.sha256(json.dumps(parts).encode()).hexdigest()
+        folders = self._journal.folder / place, self._journal.work
+        return Task(name, key, path.absolute(), size, *folders, recipe, **self._more, **more)
 
 
 def _is_read(opening):

@@ -17,8 +17,7 @@ from ..files import formats, textures, whole_file
 from ..mesh.checks import SOLVERS, as_float
 from ..tiling import tilings
 from ..tiling.request import AUTO, AUTOMATIC, EVENNESS, LINED_TURNS, LINES, MAIN_MAPS, TURNS
-from . import textured
-from .errors import UsageError
+from . import UsageError, mapping
 
 BOUNDARIES = ("natural", "double_cover", "free")
 FORMATS = ("npz", *formats.WRITERS, "blend")
@@ -39,14 +38,6 @@ def _one_of(names, default):
 
 def _number(default, wanted, is_valid=lambda value: True):
     return _option(default, wanted, lambda value: _is_number(value) and is_valid(value))
-
-
-def _optional_number(wanted, is_valid):
-    return _option(None, wanted, lambda value: _is_number(value) and is_valid(value))
-
-
-def _count(default, wanted="a whole number of at least 0", least=0):
-    return _option(default, wanted, lambda value: _is_count(value) and value >= least)
 
 
 def _flag(default):
@@ -78,7 +69,7 @@ class Maps:
     """What the structures of the parts are, and how their maps lie in the UV plane."""
 
     main: str = _one_of(MAIN_MAPS, "automatic")
-    forms: int = _count(0)  # maps of single forms, at most
+    forms: int = _option(0, "a whole number of at least 0", _is_count)  # maps of single forms, at most
     boundary: str = _one_of(BOUNDARIES, "natural")
     solver: str = _one_of(SOLVERS, "auto")
     thresholds: tuple | None = _option(
@@ -92,7 +83,7 @@ class Maps:
     density: float = _number(1.0, "a positive number", lambda value: value > 0)
     margin: float = _number(0.02, "a number from 0 to 1", lambda value: 0 <= value < 1)
     rotation: float = _number(0.0, "an angle in degrees")
-    memory_limit: int | None = _optional_number("a positive number of bytes", lambda v: 1 <= v < 2**63 and v == int(v))
+    memory_limit: int | None = _number(None, "a positive number of bytes", lambda v: 1 <= v < 2**63 and v == int(v))
 
 
 @dataclass(frozen=True)
@@ -100,7 +91,7 @@ class Tiles:
     """Options of `Structure.tile` and of the operator *Seamless Tiling*."""
 
     tiles: float = _number(0.0, "a number of tiles or 0", lambda value: value >= 0)
-    density: float | None = _optional_number("a positive number of tiles per unit of area", lambda value: value > 0)
+    density: float | None = _number(None, "a positive number of tiles per unit of area", lambda value: value > 0)
     poles: object = _option(
         "auto",
         f'"auto", a number up to {tilings.MOST_POLES} or a list of vertices',
@@ -113,10 +104,10 @@ class Tiles:
         lambda v: v in ("upright", "none") or (_is_list(v, _is_number) and len(v) == 3 and any(v)),
     )
     boundary: str = _one_of(tilings.BOUNDARIES, "automatic")
-    turn: float | None = _optional_number("an angle in radians", lambda value: True)
+    turn: float | None = _number(None, "an angle in radians", lambda value: True)
     max_turn: float = _number(0.2, "an angle of at least 0 radians", lambda value: value >= 0)
     evenness: float = _number(EVENNESS, "a number from 0 to 1", lambda value: 0 <= value <= 1)
-    max_added: float | None = _optional_number("an angle distortion of at least 1", lambda value: value >= 1)
+    max_added: float | None = _number(None, "an angle distortion of at least 1", lambda value: value >= 1)
     turns: int | str = _option(1, f'1, 2, 4, 6 or "{AUTO}"', lambda v: v == AUTO or (_is_count(v) and v in TURNS))
     lines: str = _one_of((AUTOMATIC, *LINES), AUTOMATIC)  # at which rows end, or along which they run
 
@@ -173,7 +164,7 @@ def read(path):
     try:
         recipe = of(content)
         recipe = replace(recipe, output=_with_texture(recipe.output, Path(path).resolve().parent))
-        textured.symmetry(recipe)  # before there is work
+        mapping.turned(recipe)  # before there is work
         return recipe
     except OSError as error:
         raise UsageError(f"{path}: {os.fsdecode(error.filename)}: {error.strerror}") from error

@@ -7,13 +7,15 @@ import glob
 import os
 import stat
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 
 from ..files import formats
-from .errors import UsageError
+from . import UsageError
 
 MESHES = (*formats.POLYGONAL, ".3mf")
 SCENES = tuple(formats.IMPORTERS)
+WANTED = (*MESHES, *SCENES)
 LIST = ".txt"  # one path or pattern per line, from the list's own folder on; lines with # are comments
 KINDS = f"a folder, a pattern, a list ({LIST}), a scene ({', '.join(SCENES)}) or a mesh file ({', '.join(MESHES)})"
 
@@ -60,7 +62,8 @@ def _expanded(entry, base, out):
         return _in_list(path, out)
     if os.path.lexists(path):
         return [_named(path)]
-    fixed = Path(path.anchor, *_fixed_parts(path))
+    before = takewhile(lambda part: not glob.has_magic(part), path.relative_to(path.anchor).parts)
+    fixed = Path(path.anchor, *before)  # the parts of a pattern before the first wildcard
     matches = sorted(_matches(fixed, path.relative_to(fixed).parts))
     if not matches:
         raise UsageError(f"{path}: there is no such file, folder or pattern")
@@ -68,14 +71,6 @@ def _expanded(entry, base, out):
     if not files:
         raise UsageError(f"{path}: nothing that matches is {KINDS}")
     return [_file(file, file.relative_to(fixed).as_posix()) for file in files]
-
-
-def _fixed_parts(path):
-    """The parts of a pattern before the first wildcard."""
-    for part in path.relative_to(path.anchor).parts:
-        if glob.has_magic(part):
-            return
-        yield part
 
 
 def _matches(fixed, parts):
@@ -140,7 +135,7 @@ def _in_list(path, out):
 
 
 def _is_wanted(path):
-    return path.suffix.lower() in (*MESHES, *SCENES) and not os.path.isdir(path)
+    return path.suffix.lower() in WANTED and not os.path.isdir(path)
 
 
 def is_scene(path):

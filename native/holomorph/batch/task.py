@@ -1,6 +1,5 @@
-"""The work on one asset, in one process: from its file to the files of its maps."""
+"""The work on one source, in one process: from the file of a mesh to the files of its maps, from a scene to meshes."""
 
-import hashlib
 import json
 import time
 from dataclasses import dataclass
@@ -10,22 +9,30 @@ import numpy as np
 
 from .. import ProgressiveMesh, Surface, __version__
 from .._native import Error, InvalidMesh
-from ..core.value import plain
 from ..files import formats, textures
 from ..maps.conformal_image import conformal_image
 from ..maps.report import part_count
-from . import blend, mapping, picture, textured
-from .errors import DONE, REFUSED
+from . import DONE, REFUSED, blend, mapping, picture
 from .recipe import Recipe
 
 
 @dataclass(frozen=True)
-class Task:
-    """An asset to be mapped.
+class Limits:
+    """Limits for each asset: bytes of memory, seconds, and the threads that its process uses."""
 
-    path : a mesh file, or the arrays of an object (.npz, see `blend`); scene : the scene's file and the object's name;
-    problem : why the file cannot be read, or empty
-    key : of the results, see `key`; folder : where they will be; work : where they are written first
+    memory: int = 0
+    seconds: float = 1800.0
+    threads: int = 1
+
+
+@dataclass(frozen=True)
+class Task:
+    """An asset to be mapped, or a scene whose objects are to be read.
+
+    path : a mesh file, or the arrays of an object (.npz, see `blend`), or a scene; recipe : None of a scene alone;
+    scene : of an object, the scene's file and the object's name; problem : why the file cannot be read, or empty
+    key : of the results, the same for the same source, recipe and version; folder : where they will be; work : where
+    they are written first
     """
 
     name: str
@@ -34,62 +41,58 @@ class Task:
     size: int
     folder: Path
     work: Path
-    recipe: Recipe
+    recipe: Recipe | None = None
     scene: tuple | None = None
     blender: str = ""
-    threads: int = 1
+    limits: Limits = Limits()
     problem: str = ""
 
     def run(self):
         """(record, files): what the journal notes, and the bytes of each file. Raises MemoryError, OSError"""
         start, used = time.perf_counter(), time.process_time()
+        report, files, timings = {"holomorph": __version__, "name": self.name, "components": []}, {}, []
+        status, message = DONE, ""
         try:
-            content, files, timings = _mapped(self)
-            status, message = DONE, ""
-            if not any(part["done"] for part in content["components"]):
-                status, message = REFUSED, content["components"][0]["reason"]
+            if self.problem:
+                raise InvalidMesh(self.problem)
+            if self.recipe is None:
+                files = blend.opened(self)
+            else:
+                report, files, timings = _mapped(self)
+                if not any(part["done"] for part in report["components"]):
+                    raise InvalidMesh(report["components"][0]["reason"])
         except MemoryError:
             raise
         except Error as error:
-            status, message, timings = REFUSED, str(error), []
-            content, files = {"holomorph": __version__, "name": self.name, "components": []}, {}
-        files["report.json"] = (json.dumps(content, indent=1, allow_nan=False) + "\n").encode()
-        seconds = time.perf_counter() - start
-        verdict = content.get("verdict")
-        skipped = part_count([part for part in content["components"] if not part["done"]])
-        record = {"status": status, "message": message, "verdict": verdict and verdict["level"], "skipped": skipped}
-        return record | {"seconds": seconds, "processor_seconds": time.process_time() - used, "timings": timings}, files
-
-
-def key(digest, name, recipe):
-    """The same for the same source, by the hash of its bytes, recipe and version."""
-    parts = (digest, name, recipe.canonical, __version__)
-    return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
+            status, message = REFUSED, str(error)
+        if self.recipe:
+            files["report.json"] = (json.dumps(report, indent=1, allow_nan=False) + "\n").encode()
+        verdict, skipped = report.get("verdict"), [part for part in report["components"] if not part["done"]]
+        return {
+            "status": status,
+            "message": message,
+            "verdict": verdict and verdict["level"],
+            "skipped": part_count(skipped),
+            "seconds": time.perf_counter() - start,
+            "processor_seconds": time.process_time() - used,
+            "timings": timings,
+        }, files
 
 
 def _mapped(task):
     """The report, the files, and the timings of each part, which are not results: they differ from run to run."""
-    if task.problem:
-        raise InvalidMesh(task.problem)
-    found = textured.symmetry(task.recipe)
-    recipe = textured.resolved(task.recipe, found)
+    recipe, found = mapping.turned(task.recipe)
     surface, seams = _read(task.path, recipe.output.up)
-    parts = mapping.map_parts(surface, recipe, seams, task.threads)
+    parts = mapping.map_parts(surface, recipe, seams, task.limits.threads)
     uv = mapping.main_uv(surface, parts, recipe.maps)
-    content = {
-        "holomorph": __version__,
-        "name": task.name,
-        "faces": len(surface.face_offsets) - 1,
-        "texture": plain(found and vars(found)),
-        **mapping.report(surface, parts, recipe),
-    }
-    timings = [entry.pop("timings", None) for entry in content["components"]]
+    report = mapping.report(surface, parts, recipe, found, name=task.name)
+    timings = [entry.pop("timings", None) for entry in report["components"]]
     maps = [part.map for part in parts if part.map]
     is_turned = any(made.turns != 1 for made in maps)
     files = {"picture.png": picture.png(surface, uv, _is_mapped(surface, parts), surface.up, is_turned)}
     if maps:
-        files |= _files(task, surface, textured.moved(uv, surface, parts, recipe, found), parts)
-    return content, files, timings
+        files |= _files(task, surface, mapping.moved(uv, surface, parts, recipe, found), parts)
+    return report, files, timings
 
 
 def _read(path, up):
@@ -104,18 +107,18 @@ def _read(path, up):
 def _is_mapped(surface, parts):
     """(#T,) bool: triangles of parts that have a map."""
     faces = [part.surface.face_index for part in parts if part.map]
-    if not faces:
-        return np.zeros(len(surface.triangles), bool)
-    return np.isin(surface.face_index[surface.triangle_faces], np.concatenate(faces))
+    mapped = np.concatenate([np.empty(0, int), *faces])
+    return np.isin(surface.face_index[surface.triangle_faces], mapped)
 
 
 def _files(task, surface, uv, parts):
     wanted, texture, files = task.recipe.output.formats, task.recipe.output.texture, {}
     image = None if texture is None else textures.image(texture, surface, uv)  # of the levels, too
-    for name in formats.WRITERS.keys() & set(wanted):
+    written = formats.WRITERS.keys() & set(wanted)
+    for name in written:
         files[f"mesh.{name}"] = formats.content(name, surface, uv, image)
     for number, level in enumerate(_levels(task.recipe.levels, surface, uv), 1):
-        for name in formats.WRITERS.keys() & set(wanted):
+        for name in written:
             files[f"lod{number}.{name}"] = formats.content(name, level.surface, level.uv, image)
         if "npz" in wanted:
             arrays = {"uv": level.uv, "corners": level.corners, "vertex_index": level.surface.vertex_index}
@@ -147,10 +150,7 @@ def _shape(surface, parts):
     points = np.full((len(surface.vertex_index), 3), np.nan)
     for part in parts:
         image = conformal_image(part.structure) if part.structure else None
-        if image is None:
-            continue
-        rows = np.empty(len(part.surface.vertex_index), int)
-        corners = np.searchsorted(surface.corner_index, part.surface.corner_index)
-        rows[part.surface.corner_vertices] = surface.corner_vertices[corners]
-        points[rows] = image
+        if image is not None:
+            corners = np.searchsorted(surface.corner_index, part.surface.corner_index)
+            points[surface.corner_vertices[corners]] = image[part.surface.corner_vertices]
     return points

@@ -1,135 +1,140 @@
-"""Processes that work on assets, and what becomes of an asset when its process fails."""
+"""Processes that work on assets, and what becomes of an asset when its process fails.
+
+python -P .../holomorph/batch/start.py CONNECTION MEMORY is one of them, with the file descriptor of the connection to
+the process that started it, and the bytes that each asset may take.
+"""
 
 import contextlib
-import errno
 import os
+import queue
 import resource
 import signal
 import subprocess
 import sys
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import dataclass
 from multiprocessing import Pipe
+from multiprocessing.connection import Connection, wait
 from pathlib import Path
 
-from .errors import CRASHED, MEMORY, TIME
-from .journal import publish
+import numpy as np
+
+from .. import Surface, conformal_structure
+from ..core import unexpected
+from . import CRASHED, MEMORY, TIME, StorageError
+from .journal import publish, storing
 
 MEMORY_SHARE = 0.8  # part of a machine's memory, for all its workers together
 START = Path(__file__).with_name("start.py").absolute()
 ATTEMPTS = 2  # at an asset whose process ends: it may have been ended from outside
-
-
-@dataclass(frozen=True)
-class Limits:
-    """Limits for each asset: bytes of memory, seconds, and the threads that its process uses."""
-
-    memory: int
-    seconds: float
-    threads: int = 1
+LONGEST_WAIT = 3600.0  # seconds, at a time: systems do not wait for months
+FAULT = "fault.txt"  # beside the record of an asset: what is to be sent
 
 
 class Stopped(Exception):
-    """Raised when the worker was told to stop before the task was done."""
+    """Raised where the process was told to stop before the task was done."""
 
 
 class Worker:
-    """A process that is started for the first task, and again after each failure."""
+    """A process that is started for the first task, and again after each failure, or for other limits."""
 
-    def __init__(self, limits):
-        self._limits, self._process, self._stopped = limits, None, False
-        self._lock = threading.Lock()
+    def __init__(self):
+        self.task, self._process, self._limits = None, None, None
 
-    def do(self, task):
-        """The record of the task, whose results are written then. @throws StorageError, Stopped"""
-        start, status = time.perf_counter(), CRASHED
-        left = ATTEMPTS
-        while status == CRASHED and left > 0:
-            left -= 1
-            status, answer = self._answer(task)
-        if status is None:
-            return answer
-        seconds = time.perf_counter() - start
-        return publish(task, {"status": status, "message": answer, "seconds": seconds}, {})
+    def begin(self, task):
+        """Sends a task to the process. @throws OSError where none can be started"""
+        if task.limits != self._limits:
+            self.end()
+        self.task, self._limits, self._start = task, task.limits, time.monotonic()
+        self._attempts, self._stopped = 0, False
+        self._try()
 
-    def stop(self):
-        """Ends the process; a task in it is not done. From any thread."""
-        with self._lock:
-            self._stopped = True
-            self._end()
+    def _try(self):
+        if self._process is None:
+            self._connection, self._process = _started(self._limits)
+        self._attempts += 1
+        self.deadline = time.monotonic() + self._limits.seconds
+        with contextlib.suppress(OSError):  # where it ended: then nothing is received
+            self._connection.send(self.task)
 
-    def _answer(self, task):
-        """(None, record), or the kind of failure and a sentence."""
-        connection = self._connected()
+    def fileno(self):
+        """What is waited for."""
+        return self._connection.fileno()
+
+    def record(self):
+        """That of the task, whose results are written then, once the process told or is late; None where it is tried
+        again. @throws StorageError, Stopped, and OSError as `begin`"""
+        answer = self._answer()
+        if "key" not in answer:
+            if answer["status"] == CRASHED and self._attempts < ATTEMPTS:
+                return self._try()
+            answer = publish(self.task, answer | {"seconds": time.monotonic() - self._start}, {})
+        self.task = None
+        return answer
+
+    def _answer(self):
+        """The record, or the status and the message of a failure, of which nothing is written yet."""
+        if not self._connection.poll():
+            self.end()
+            return {"status": TIME, "message": f"not done after {self._limits.seconds:g} s, the time limit"}
         try:
-            connection.send(task)
-            if not connection.poll(self._limits.seconds):
-                self._renew()
-                return TIME, f"not done after {self._limits.seconds:g} s, the time limit"
-            answer = connection.recv()
+            answer = self._connection.recv()
         except (EOFError, OSError):
-            return CRASHED, f"its process {self._renew()}"
+            ended = self.end()
+            if self._stopped:
+                raise Stopped from None
+            return {"status": CRASHED, "message": f"its process {ended}"}
         if isinstance(answer, Exception):
             raise answer
-        if answer["status"] == MEMORY:
-            self._renew()
-            return MEMORY, f"more than {self._limits.memory / 2**20:.0f} MB, the memory limit, are needed"
-        return None, answer
+        if answer is None:
+            self.end()
+            told = f"more than {self._limits.memory / 2**20:.0f} MB, the memory limit, are needed"
+            return {"status": MEMORY, "message": told}
+        return answer
 
-    def _connected(self):
-        with self._lock:
-            if self._stopped:
-                raise Stopped
-            if self._process is None:
-                self._start()
-            return self._connection
+    def stop(self):
+        """Kills the process; a task in it is not done. From any thread."""
+        self._stopped = True
+        if self._process is not None:
+            _kill(self._process)
 
-    def _start(self):
-        with contextlib.ExitStack() as ours, contextlib.ExitStack() as theirs:
-            self._connection, other = Pipe()
-            ours.callback(self._connection.close)
-            theirs.callback(other.close)
-            lifeline, self._lifeline = os.pipe()
-            ours.callback(os.close, self._lifeline)
-            theirs.callback(os.close, lifeline)
-            arguments = [str(other.fileno()), str(lifeline), str(self._limits.memory)]
-            threads = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": str(self._limits.threads)}
-            self._process = subprocess.Popen(
-                [sys.executable, "-P", str(START), *arguments],
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                pass_fds=(other.fileno(), lifeline),
-                start_new_session=True,  # Ctrl-C is for the process that has the terminal
-                env=os.environ | threads | _python_path(),
-            )
-            ours.pop_all()  # are closed with the process
-
-    def _renew(self):
-        """Ends the process, and tells how it ended; the next task starts another."""
-        with self._lock:
-            if self._stopped:
-                raise Stopped
-            return self._end()
-
-    def _end(self):
+    def end(self):
+        """Ends the process, and tells how it ended."""
         if self._process is None:
             return ""
         ended = self._process.poll()
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(self._process.pid, signal.SIGKILL)
+        _kill(self._process)
         code = self._process.wait() if ended is None else ended
         self._connection.close()
-        os.close(self._lifeline)
         self._process = None
         return f"was ended by {signal.Signals(-code).name}" if code < 0 else f"ended with {code}"
 
 
-def _python_path():
-    """What the environment says of where modules are, without the current folder, for which an empty entry stands."""
-    entries = os.environ.get("PYTHONPATH", "").split(os.pathsep)
-    return {"PYTHONPATH": os.pathsep.join(os.path.abspath(entry) for entry in entries if entry)}
+def _kill(process):
+    """With the programs that it started."""
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
+
+
+def _started(limits):
+    """(connection, process) of a new process. @throws OSError"""
+    connection, other = Pipe()
+    paths = filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))  # an empty one is the current folder
+    environment = {
+        "PYTHONPATH": os.pathsep.join(paths),
+        "OPENBLAS_NUM_THREADS": "1",
+        "OMP_NUM_THREADS": str(limits.threads),
+    }
+    with other:
+        process = subprocess.Popen(
+            [sys.executable, "-P", str(START), str(other.fileno()), str(limits.memory)],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            pass_fds=[other.fileno()],
+            start_new_session=True,  # Ctrl-C is for the process that has the terminal
+            env=os.environ | environment,
+        )
+    return connection, process
 
 
 def machine_memory():
@@ -139,33 +144,97 @@ def machine_memory():
     return whole if limit == resource.RLIM_INFINITY else min(whole, limit)
 
 
-def _begun(threads, work, order):
-    """The futures. @throws OSError where no thread can be started, as where there are no more processes"""
+def records(tasks, workers):
+    """Yields the record of each task as it is done. @throws StorageError, Stopped, and OSError where no process can be
+    started"""
+    waiting, free, busy = list(tasks)[::-1], list(workers), []
+    while waiting or busy:
+        while waiting and free:
+            busy.append(free.pop())
+            busy[-1].begin(waiting.pop())
+        left = min(worker.deadline for worker in busy) - time.monotonic()
+        told = wait(busy, min(max(left, 0.0), LONGEST_WAIT))
+        for worker in told or [worker for worker in busy if worker.deadline <= time.monotonic()]:
+            record = worker.record()
+            if record:
+                busy.remove(worker)
+                free.append(worker)
+                yield record
+
+
+def run(tasks, count):
+    """The same, by `count` processes of this machine, which end with it."""
+    workers = [Worker() for _ in range(count)]
     try:
-        return [threads.submit(work, task) for task in order]
-    except RuntimeError as error:
-        raise OSError(errno.EAGAIN, str(error)) from error
+        yield from records(tasks, workers)
+    finally:
+        for worker in workers:
+            worker.end()
 
 
-def run(tasks, limits, count):
-    """Yields the record of each task as it is done, the largest first, by `count` processes. @throws StorageError"""
-    workers = [Worker(limits) for _ in range(count)]
-    free = list(workers)
+def main():
+    """In the process: sends for each task its record, a `StorageError`, or None where memory is lacking. Then it ends:
+    another one begins with memory that is whole."""
+    connection, tasks, has_memory, answer = Connection(int(sys.argv[1])), queue.SimpleQueue(), True, CRASHED
+    threading.Thread(target=_receive, args=[connection, tasks], daemon=True).start()
+    try:
+        _warm_up()
+        _limit(int(sys.argv[2]))
+    except MemoryError:
+        has_memory = False
+    while answer:
+        task = tasks.get()
+        answer = _done(task) if has_memory else None
+        connection.send(answer)
 
-    def work(task):
-        worker = free.pop()  # there are as many threads as workers
-        try:
-            return worker.do(task)
-        finally:
-            free.append(worker)
 
-    order = sorted(tasks, key=lambda task: (-task.size, task.name))
-    with ThreadPoolExecutor(count) as threads:
-        try:
-            waiting = _begun(threads, work, order)
-            for done in as_completed(waiting):
-                yield done.result()
-        finally:
-            threads.shutdown(wait=False, cancel_futures=True)
-            for worker in workers:
-                worker.stop()
+def _receive(connection, tasks):
+    """Ends this process and the programs it started when the one that started it is gone."""
+    try:
+        while True:
+            tasks.put(connection.recv())
+    finally:
+        os.killpg(0, signal.SIGKILL)
+
+
+def _done(task):
+    start = time.perf_counter()
+    try:
+        with storing():
+            return publish(task, *task.run())
+    except MemoryError:
+        return None
+    except StorageError as error:
+        return error
+    except Exception as error:  # noqa: BLE001  the outer door of an asset: other assets are done
+        message = f"{unexpected.sentence(error)}; please send {FAULT}, which holds no mesh"
+        record = {"status": CRASHED, "message": message, "seconds": time.perf_counter() - start}
+        with storing():
+            return publish(task, record, {FAULT: unexpected.report(error).encode(errors="backslashreplace")})
+
+
+def _warm_up():
+    """OpenBLAS takes 128 MB for itself at its first use, of which it touches little, and waits without end where it
+    does not get them: before the limit it does. There are two of them, NumPy's and CHOLMOD's. @throws MemoryError"""
+    grid = np.arange(9).reshape(3, 3)
+    corners = [np.roll(grid, shift, (0, 1)) for shift in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    points = np.sin(np.arange(27.0) ** 2).reshape(-1, 3)  # a torus that goes through itself
+    conformal_structure(Surface(points, np.stack(corners, axis=-1).reshape(-1, 4)), solver="direct")
+    np.linalg.inv(np.eye(64) @ np.eye(64))
+
+
+def _limit(memory):
+    """Limits what the process can allocate, beyond what it has now.
+
+    RLIMIT_DATA counts private writable memory. RLIMIT_AS would count libraries and what threads reserve as well, and
+    what is resident can only be looked at from time to time, while a bomb goes off in between. Programs that a task
+    starts inherit it. Where all memory of the machine runs out, the kernel is to choose a worker.
+    """
+    with open("/proc/self/status") as status:
+        used = next(int(line.split()[1]) * 1024 for line in status if line.startswith("VmData:"))
+    hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
+    limit = used + memory if hard == resource.RLIM_INFINITY else min(used + memory, hard)
+    resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    with open("/proc/self/oom_score_adj", "w") as score:
+        score.write("1000")

@@ -13,6 +13,7 @@ from .. import _native
 from .._native import InvalidMesh
 from ..core import arrays
 from ..core.array_types import Integers, Progress, Reals
+from ..core.progress import scaled
 from ..core.value import Value, counted
 from ..forms.solver_report import SolverReport
 from ..mesh.checks import check_list, check_options
@@ -109,7 +110,7 @@ def levels_of_detail(
         surface, report = mesh._level(count), None
         moves = np.zeros((len(surface.vertices), values.shape[1]))
         if harmonic:
-            part = _part(progress, index, len(splits))
+            part = scaled(progress, index / len(splits), (index + 1) / len(splits))
             made = _native.harmonic_map(surface._native, values, solver, threads, part)
             moves, report = made.moves, SolverReport.of(made.solver)
             values = values + moves[surface.corner_vertices]
@@ -153,10 +154,3 @@ def _maps(uv, corner_count):
         corner = int(np.argmin(np.isfinite(rows).all(axis=1)))
         raise InvalidMesh(f"uv of corner {corner} is not finite")
     return uv, rows
-
-
-def _part(progress, index, count):
-    """The progress function of one of `count` equal parts."""
-    if progress is None:
-        return None
-    return lambda fraction, stage: progress((index + fraction) / count, stage)
