@@ -222,16 +222,19 @@ def _asked(request, part):
 def _parts(one, asked, made):
     """The `MappedPart`s of one object."""
     reasons, done = [native.sentence(each) if isinstance(each, Exception) else "" for each in made], one.solved.done
-    if one.main == SEAMLESS and one.request.is_chosen and all(reasons):
+    is_asked = one.main == ISLANDS or (one.main == SEAMLESS and one.request.is_chosen)
+    if is_asked and all(reasons):
         return [MappedPart(component, skipped=reason) for component, reason in zip(done, reasons)]
     return [_part(*each) for each in zip(done, asked, made, reasons)]
 
 
 def _part(component, asked, made, refusal):
-    """With another map than a tiling that is refused."""
+    """With another map than a tiling, or islands, that are refused."""
     request, *given = asked
     if refusal and request.main == "balanced":
         return MappedPart(component, skipped=refusal)
     if refusal:
         made = holomorph.automatic_map(*given, main="untiled", evenness=request.evenness)
+    if refusal and request.main == "islands":
+        return MappedPart(replace(component, note=refusal), made)
     return MappedPart(component, made, not_seamless=refusal)

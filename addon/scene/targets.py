@@ -138,7 +138,7 @@ def _why_refused(obj, mask, asked):
     """Why the object is refused, one sentence, or ""."""
     if mask is not None and not mask.any():
         return gathering.why_fixed(obj) or "all its faces are hidden"
-    if asked.are_islands and asked.is_explicit:
+    if asked.is_late and asked.is_explicit:
         return gathering.why_fixed(obj) or "islands have neither poles nor corners: choose another main map"
     return gathering.why_fixed(obj)
 
@@ -171,7 +171,7 @@ def first_modifier(obj):
 
 def _chosen(obj, asked, at_seams):
     """The choices, with the vertices and edges of this object; @pre pending edits are written to the mesh."""
-    marks = [mesh_io.SEAM] * at_seams + [mesh_io.SHARP] * bool(asked.hard_edges)
+    marks = [mesh_io.SEAM] * at_seams
     vertices = _selected(obj, asked.use) if asked.vertices is None else asked.vertices
     return replace(asked, vertices=vertices, seams=mesh_io.marked_edges(obj.data, *marks))
 

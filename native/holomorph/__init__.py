@@ -24,7 +24,7 @@ Structures: conformal_structure, automatic_structure, AnyStructure, SOLVERS; Con
 PoleStructure, log_map, Zeros, FundamentalDomain, PeriodMatrix; Certificate, Refinement; MemoryPlan, SolverReport,
 Residuals.
 Maps to the plane and the sphere: disk_map, DiskMap, rectangle_map, RectangleMap,
-free_boundary_map, FreeBoundaryMap, conformal_image; islands, disk_islands, cut_to_cones.
+free_boundary_map, FreeBoundaryMap, conformal_image.
 Tilings: Tiler, Tiling, Rounding, place_poles, PlacedPoles; TiledSurface, Places, Lines, Cells, Relief; height_image,
 image_lattice, ImageLattice, image_turns, ImageTurns.
 Surfaces compared: conformally_equivalent, Equivalence, conformal_map, ConformalMap, automorphisms, Automorphisms,
@@ -48,12 +48,10 @@ from .forms.certificate import Certificate
 from .mesh.checks import SOLVERS
 from .forms.closed import ConformalStructure
 from .quality.coarse_places import CoarsePlace, coarse_places
-from .cutting.cones import cut_to_cones
 from .maps.conformal_image import conformal_image
 from .moduli.conformal_map import ConformalMap, conformal_map
 from .plane.cut import cut_along
 from .plane.disk import disk_map, free_boundary_map, rectangle_map
-from .cutting.disk_islands import disk_islands
 from .mesh.double import double_cover, symmetrised
 from .moduli.equivalence import Equivalence, conformally_equivalent
 from .forms.fundamental_domain import FundamentalDomain
@@ -62,7 +60,6 @@ from .mesh.holes import punch_holes
 from .moduli.igusa import igusa_invariants
 from .tiling.image_lattice import ImageLattice, image_lattice
 from .tiling.image_turns import ImageTurns, image_turns
-from .cutting.islands import islands
 from .levels.levels import LevelOfDetail
 from .forms.log_map import log_map
 from .maps.map import Map, form_map, island_map
@@ -151,8 +148,6 @@ if TYPE_CHECKING:  # at run time, help() would print all that it names in full, 
         "conformal_structure",
         "conformally_equivalent",
         "cut_along",
-        "cut_to_cones",
-        "disk_islands",
         "disk_map",
         "distortion",
         "double_cover",
@@ -164,7 +159,6 @@ if TYPE_CHECKING:  # at run time, help() would print all that it names in full, 
         "image_lattice",
         "image_turns",
         "island_map",
-        "islands",
         "layout",
         "log_map",
         "place",

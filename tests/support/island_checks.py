@@ -2,6 +2,8 @@
 
 import numpy as np
 from holomorph import free_boundary_map
+from holomorph.mesh.cut_open import cut_open
+from holomorph.mesh.edges import edge_keys
 
 ISOMETRIC = 1e-10  # relative
 
@@ -32,9 +34,7 @@ def is_rigid(surface):
     return isometric and not structure.quality(uv).flipped.any()
 
 
-def assert_same_faces(surface, parts):
-    """The parts have each face once, and their indices lead to its vertices and corners."""
-    assert np.array_equal(np.sort(np.concatenate([part.face_index for part in parts])), surface.face_index)
-    for part in parts:
-        assert np.array_equal(part.vertices, surface.vertices[part.vertex_index])
-        assert np.array_equal(part.vertex_index[part.corner_vertices], surface.corner_vertices[part.corner_index])
+def cut_along(surface, seams):
+    """The parts into which seams, (n, 2) vertices of edges, cut a surface."""
+    keys, wanted = (edge_keys(np.asarray(ends), len(surface.vertices)) for ends in (surface._native.edges, seams))
+    return cut_open(surface, np.isin(keys, wanted)).components

@@ -16,7 +16,7 @@ from ..maps.report import parts_report
 from ..mesh.origin import on_part
 from ..tiles.height_image import height_image
 from ..tiling.image_turns import image_turns
-from ..tiling.turned import AUTO, AUTOMATIC, LINED_TURNS
+from ..tiling.request import AUTO, AUTOMATIC, LINED_TURNS
 
 
 @dataclass(eq=False)

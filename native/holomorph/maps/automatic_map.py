@@ -39,6 +39,9 @@ def automatic_map(
     cones: Mapping[int, float] | None = None,
     evenness: float = EVENNESS,
     effort: float = 1.0,
+    seams: ArrayLike | None = None,
+    hard_edges: float = 0.0,
+    most_stretch: float = 0.0,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Map:
@@ -54,13 +57,16 @@ def automatic_map(
     structure : its conformal structure, default `automatic_structure`. It keeps the poles that were placed: another
         call with other tiles, lattice or direction is quick
     main : "automatic"; "seamless" for a tiling in any case; "untiled" for the best of the other maps; "balanced" for a
-        map of forms, as when something about the structure was chosen
+        map of forms, as when something about the structure was chosen; "islands" for flat pieces between chosen cuts
     tiles, poles, lattice, boundary, turn, max_turn, max_added, turns, texture : of tilings, as in `Structure.tile`
     lines, marked : likewise, where they can be made; "automatic" for lines that cost little
     cones : likewise; then there are no lines
     density : tiles per unit of area; where whole tiles miss it by more than 20 %, the map is not a tiling
     direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
     evenness : from 0 for a conformal map to 1 for squares of nearly one size; see `Structure.tile`
+    seams, hard_edges, most_stretch : where "islands" are cut: along edges, (n, 2) vertices; along those that break off
+        by more degrees, 0 for none; and open to cone points where lengths change by a larger factor, 0 for nowhere.
+        They are cut on until they can be flattened, and where they lie over themselves
     effort : how much work may be spent on better maps, over the usual amount: some 5 s of one processor at 20,000
         triangles. The first map is made in any case, and `Map.why` says where others were not tried; 100 tries
         nearly all. Counted, not timed
@@ -82,6 +88,7 @@ def automatic_map(
     chosen = {"main": main, "poles": poles, "marked": marked, "cones": cones, "evenness": evenness, "effort": effort}
     chosen |= {"lattice": lattice, "boundary": boundary, "direction": direction, "turn": turn, "max_turn": max_turn}
     chosen |= {"max_added": max_added, "turns": asked_turns(turns, texture), "lines": lines}
+    chosen |= {"seams": seams, "hard_edges": hard_edges, "most_stretch": most_stretch}
     request = Request(tiles=tiles or None, density=density, **chosen)
     (((made,), _),) = map_objects([[(request, surface, structure)]], request.size_of([surface]), threads, progress)
     if isinstance(made, Map):

@@ -16,18 +16,15 @@ from numpy.typing import ArrayLike
 from .._native import InvalidMesh, SolverError, TopologyError
 from ..core.array_types import Integers, Progress
 from ..core.progress import scaled
-from ..cutting.disk_islands import disk_islands
 from ..mesh.edges import boundary_edges, edge_keys, polygon_sides
 from ..mesh.surface import Surface
 from .automatic_structure import AnyStructure, automatic_structure
-from .late_structure import late_structure
+from .late_structure import LateStructure, late_structure
 
 AUTOMATIC, POLES, RECTANGLE, NONE = "AUTOMATIC", "POLES", "RECTANGLE", "NONE"  # what chosen vertices are
 CORNERS = 4
 NO_EDGES = np.empty((0, 2), np.int64)
 UV_START = 0.6  # fraction of the work after which the potentials of the maps are solved for
-NO_ISLANDS = "no seams cut it open: mark some in edit mode (Edge > Mark Seam), or take another main map"
-NO_HARD_EDGES = "no edge is that sharp: choose a smaller angle, mark seams in edit mode, or take another main map"
 
 
 @dataclass(frozen=True)
@@ -38,9 +35,7 @@ class Choices:
     vertices : in the order in which they were chosen
     residues : one for each pole; none lets them be chosen
     seams : (#S, 2) vertices
-    are_islands : the mesh is cut along its seams into parts, each flattened by itself
-    hard_edges : degrees; islands are cut along sharper edges, too; 0 for the seams alone
-    most_stretch : islands are cut open where lengths change by a larger factor; 0 for no such cuts
+    is_late : structures are made when they are asked for: islands need none
     """
 
     use: str = NONE
@@ -48,15 +43,13 @@ class Choices:
     residues: tuple[complex, ...] = ()
     seams: Integers = field(default_factory=lambda: NO_EDGES, compare=False)
     solver: str = "auto"
-    are_islands: bool = False
-    hard_edges: float = 0.0
-    most_stretch: float = 0.0
+    is_late: bool = False
 
     @property
     def key(self) -> tuple[Any, ...]:
         """Equal for choices that give the same structures."""
         chosen = (self.use, self.vertices, self.residues) if self.vertices else ()
-        return (*chosen, self.seams.tobytes(), self.solver, self.are_islands, self.hard_edges, self.most_stretch)
+        return (*chosen, self.seams.tobytes(), self.solver, self.is_late)
 
     @property
     def is_explicit(self) -> bool:
@@ -91,7 +84,7 @@ def chosen_structures(
     explicit choice of vertices does not fit the part they lie on."""
     surface = Surface.from_polygons(vertices, corner_vertices, face_offsets, strict=False)
     chosen = _on_surface(choices, surface)
-    parts = _parts(surface, chosen, progress)
+    parts = surface.components
     explicit = np.array(choices.vertices if choices.is_explicit else (), np.int64)
     stray = explicit[~np.isin(explicit, corner_vertices)]
     if len(stray):
@@ -111,20 +104,10 @@ def _on_surface(choices, surface):
     return replace(choices, vertices=vertices, seams=lowest(choices.seams))
 
 
-def _parts(surface, choices, progress):
-    """The connected components, or the islands between the seams. Seams may be edges of no face that is mapped."""
-    if not choices.are_islands:
-        return surface.components
-    stretch = choices.most_stretch if choices.most_stretch > 1 else None
-    options = {"hard_edges": choices.hard_edges or None, "most_stretch": stretch}
-    islands = disk_islands(surface, choices.seams, strict=False, progress=progress, **options)
-    if any(part.genus == 0 and part.boundary_count == 1 for part in islands):
-        return islands
-    raise TopologyError(NO_HARD_EDGES if choices.hard_edges else NO_ISLANDS)
-
-
 def _structure_of_part(part, surface, vertices, choices, progress):
     """The `PartStructure` of the most that can be followed of the choices."""
+    if choices.is_late:
+        return PartStructure(part, LateStructure(surface, part))
     note, (*earlier, last) = "", wanted(part, choices)
     for keywords in earlier:
         try:
@@ -143,8 +126,6 @@ def wanted(part: Surface, choices: Choices) -> list[dict[str, Any]]:
     """Keywords of `automatic_structure` for a part, the most wanted first; the later ones leave out what is not
     explicit. Vertices are those of the mesh as given."""
     base = {"solver": choices.solver}
-    if choices.are_islands:
-        return [_with_fitting_solver(part, keywords) for keywords in (base | {"boundary": "free"}, base)]
     seams = choices.seams
     if len(seams):
         seams = seams[np.isin(seams, part.vertex_index).all(axis=1)]
@@ -159,7 +140,7 @@ def wanted(part: Surface, choices: Choices) -> list[dict[str, Any]]:
 def _with_fitting_solver(part, keywords):
     """The paper's solver is for parts that have forms: other parts of a mesh are solved as usual."""
     has_forms = 2 * part.genus + part.boundary_count - (part.boundary_count > 0) > 0
-    if keywords["solver"] == "paper" and (not has_forms or "boundary" in keywords or _has_selection(keywords)):
+    if keywords["solver"] == "paper" and (not has_forms or _has_selection(keywords)):
         return keywords | {"solver": "auto"}
     return keywords
 
@@ -205,7 +186,7 @@ def _made(part, surface, vertices, keywords, note, progress):
     structure = replace(structure, surface=surface)  # so do its results
     units = np.eye(structure.form_count, dtype=structure.coefficient_type)
     structure.uv(units[0] if len(units) else ())  # refused here, where it is not finite
-    is_chosen = names_vertices or "boundary" in keywords or keywords["solver"] == "paper"
+    is_chosen = names_vertices or keywords["solver"] == "paper"
     return PartStructure(part, structure, note=note, is_chosen=is_chosen)
 
 

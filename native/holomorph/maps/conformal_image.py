@@ -10,6 +10,7 @@ from ..forms.results import Structure
 from ..mesh.checks import check_type
 from ..plane.plane_maps import DiskMap
 from .automatic_structure import AnyStructure
+from .late_structure import LateStructure
 
 
 def conformal_image(structure: AnyStructure) -> Reals | None:
@@ -29,6 +30,8 @@ def conformal_image(structure: AnyStructure) -> Reals | None:
     >>> print(image.shape, image[40].round(3))
     (81, 3) [0. 0. 0.]
     """
+    if isinstance(structure, LateStructure):  # beside islands, which have no image
+        return None
     check_type(structure, Structure, "structure")
     if isinstance(structure, DiskMap):
         disk = structure.disk_map()

@@ -82,8 +82,9 @@ def part_report(made: Map) -> dict[str, Any]:
     about = {"kind": made.kind, "why": made.why, "evenness": made.evenness}
     about["worst_places"] = {name: place._asdict() for name, place in made.worst_places.items()}
     main_map = map_report(made.coefficients, made.quality, made.verdict) | about
-    if isinstance(made.structure, LateStructure) and made.structure.is_large:
-        about = {"done": True, **_topology(made.surface), "description": made.structure.description}
+    if isinstance(made.structure, LateStructure) and "made" not in vars(made.structure):
+        description = made.structure.description if made.structure.is_large else made.why
+        about = {"done": True, **_topology(made.surface), "description": description}
         return plain(about | {"forms": 0, "main_map": main_map})
     entry = component_report(made.surface, made.structure, main_map)
     entry["forms"] = made.structure.form_count

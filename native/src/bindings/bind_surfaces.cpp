@@ -26,6 +26,8 @@
 namespace holomorph::bindings {
 namespace {
 
+using namespace pybind11::literals;
+
 using mesh::Surface;
 using SurfacePointer = std::shared_ptr<Surface>;
 
@@ -328,13 +330,6 @@ void bind_cuts(py::module_& m) {
         return mesh::curvature(surface, flags(is_seam), most);
       },
       "surface"_a, "is_seam"_a, "most"_a);
-  m.def(
-      "cuts_to_tips",
-      [](const Surface& surface, const Flags& is_seam) {
-        return as_flags(
-            unlocked([&, seam = flags(is_seam)](Execution& e) { return mesh::cuts_to_tips(surface, seam, e); }));
-      },
-      "surface"_a, "is_seam"_a);
   m.def(
       "on_border",
       [](const Surface& surface, const Flags& is_cut) { return as_flags(mesh::on_border(surface, flags(is_cut))); },

@@ -3,7 +3,7 @@
 import holomorph
 import numpy as np
 import pytest
-from families import cylinder, geodesic_sphere, hemisphere, punctured_torus, torus, united
+from families import cylinder, geodesic_sphere, hemisphere, torus, united
 from holomorph import InvalidMesh, TopologyError, automatic_maps, automatic_structure, conformal_image
 from holomorph.mesh.edges import around_boundary, boundary_edges
 from plane_meshes import corners_of, grid, wavy
@@ -136,13 +136,3 @@ def test_the_last_rounding_is_evened_anew(evenness):
         found = kept.tile(60, poles=2, evenness=first)
     expected = fresh.tile(60, poles=2, evenness=evenness)
     assert np.array_equal(found.uv, expected.uv) and found.evenness == evenness
-
-
-def test_islands_are_cut_open_to_disks():
-    """A tube and a torus with a hole become disks, a sphere stays closed."""
-    tube, holed, ball = (surface_of(mesh) for mesh in (cylinder(8, 5), punctured_torus(), geodesic_sphere(3)))
-    for surface in (tube, holed):
-        (disk,) = holomorph.disk_islands(surface)
-        assert (disk.genus, disk.boundary_count) == (0, 1)
-        assert np.array_equal(disk.face_index, surface.face_index)
-    assert holomorph.disk_islands(ball)[0].boundary_count == 0

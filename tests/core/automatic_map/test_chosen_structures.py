@@ -52,8 +52,6 @@ def test_the_solver_of_the_paper_is_for_parts_with_forms():
     ring, closed, sphere = (surface_of(mesh) for mesh in (cylinder(8, 3), TORUS, geodesic_sphere(3)))
     chosen = Choices(solver="paper")
     assert [wanted(part, chosen)[0]["solver"] for part in (ring, closed, sphere)] == ["paper", "paper", "auto"]
-    free, natural = wanted(ring, Choices(are_islands=True, solver="paper"))
-    assert free == {"boundary": "free", "solver": "auto"} and natural == {"solver": "paper"}
     assert wanted(closed, Choices(POLES, (3, 150), solver="paper"))[0]["solver"] == "auto"
 
 

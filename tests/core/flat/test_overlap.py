@@ -3,9 +3,10 @@
 import families
 import numpy as np
 import pytest
-from holomorph import Cancelled, Surface, conformal_structure, free_boundary_map, islands
+from holomorph import Cancelled, Surface, conformal_structure, free_boundary_map
 from holomorph.quality.overlap import overlapping_part
 from holomorph.quality.verdicts import baking
+from island_checks import cut_along
 from solved import surface_of
 
 ROUNDING = 1e-9
@@ -94,7 +95,7 @@ def test_one_more_seam_ends_it():
     surface = helix(1.5)
     n = len(surface.vertices) // 3
     seam = np.array([[n // 2, n // 2 + n], [n // 2 + n, n // 2 + 2 * n]])
-    parts = islands(surface, seam)
+    parts = cut_along(surface, seam)
     assert len(parts) == 2
     for part in parts:
         structure = free_boundary_map(part)

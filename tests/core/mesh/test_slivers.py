@@ -7,9 +7,10 @@ import families
 import numpy as np
 import pytest
 from command_runs import run
-from holomorph import InvalidMesh, Surface, _native, automatic_maps, disk_islands, island_map, islands
+from holomorph import InvalidMesh, Surface, TopologyError, _native, automatic_map, automatic_maps, island_map
 from holomorph.mesh.cut_open import cut_open
 from holomorph.mesh.hard_edges import curvature
+from island_checks import cut_along
 from small_families import MESHES
 from solved import BOUNDED, CLOSED
 
@@ -74,13 +75,14 @@ def test_each_is_in_the_piece_at_its_longest_side(name):
     surface, wanted = surface_of(mesh), owners(mesh, count)
     faces = len(mesh.offsets) - 1
     everywhere = np.unique(np.sort(np.stack([mesh.corners, _following(mesh)], axis=1), axis=1), axis=0)
-    for pieces in (islands(surface, everywhere), islands(surface, hard_edges=40)):
+    bent = surface._native.edges[_native.bends(surface._native) > np.radians(40)]
+    for pieces in (cut_along(surface, everywhere), cut_along(surface, bent)):
         piece = np.empty(faces, int)
         for number, part in enumerate(pieces):
             assert part.area > 0
             piece[part.face_index] = number
         assert piece[-count:].tolist() == piece[wanted].tolist()
-    assert len(islands(surface, everywhere)) == faces - count
+    assert len(cut_along(surface, everywhere)) == faces - count
 
 
 @pytest.mark.parametrize("far", [0.0, 10.0, 100.0])
@@ -129,8 +131,8 @@ def test_one_among_many_has_a_map_everywhere(tmp_path):
     """As an island, along hard edges, flattened, and by the command."""
     surface = surface_of(families.with_slivers(families.torus(40, 20, shape="triangles"), 1))
     assert len(surface.repairs.zero_area_faces) == 1
-    assert [len(part.face_index) for part in islands(surface, hard_edges=40)] == [len(surface.face_index)]
-    assert len(disk_islands(surface, hard_edges=40)) == 1
+    with pytest.raises(TopologyError, match="no seams"):  # a ring without hard edges
+        automatic_map(surface, main="islands", hard_edges=40)
     surface.write(tmp_path / "torus.obj")
     done = run(tmp_path / "torus.obj", "--output", tmp_path / "out.obj")
     assert done.returncode == 0, done.stderr

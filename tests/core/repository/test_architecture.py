@@ -32,7 +32,7 @@ ROOM_BELOW = {
 }
 # The rooms of the package, each of which imports only earlier ones. What lies in the package itself begins with all.
 PACKAGE_ROOMS = (
-    *("core", "files", "mesh", "quality", "packing", "tiling", "forms", "plane", "cutting", "tiles", "maps", "moduli"),
+    *("core", "files", "mesh", "quality", "packing", "tiling", "forms", "plane", "tiles", "maps", "moduli"),
     *("levels", "commands", "batch", ""),
 )
 # Each room of the add-on, and the rooms that it may import directly or through them. "" is what lies in addon itself.

@@ -6,11 +6,12 @@ from dataclasses import replace
 import families
 import numpy as np
 import pytest
-from holomorph import Seen, Surface, Verdict, automatic_map, automatic_structure, form_map, islands, verdict
+from holomorph import Seen, Surface, Verdict, automatic_map, automatic_structure, form_map, verdict
 from holomorph.__main__ import main
 from holomorph.maps.report import part_report, refused_report, skipped_report, whole_report
 from holomorph.quality.appearance import SHEAR
 from holomorph.quality.verdicts import COSTS, LEVELS, OVERLAPPING, baking
+from island_checks import cut_along
 from measured import Measured
 from mesh_files import obj
 from solved import solved, surface_of
@@ -245,7 +246,7 @@ def sheet(bent, count=8):
 def of_islands(surface, rows):
     """The report on the flat islands that a seam along these rows of the middle of a `sheet` leaves."""
     middle = np.arange(36, 45)[rows]
-    parts = islands(surface, np.stack([middle[:-1], middle[1:]], axis=1))
+    parts = cut_along(surface, np.stack([middle[:-1], middle[1:]], axis=1))
     maps = [automatic_map(part, main="untiled") for part in parts]
     return whole_report(maps, list(map(part_report, maps)), surface.repairs)
 

@@ -1,1 +1,0 @@
-"""Maps in pieces: cuts, hard edges, cones."""
