@@ -51,7 +51,7 @@ def test_closed_files(numbers, meshes, undisturbed, recipe, tmp_path):
 def test_few_file_numbers(meshes, undisturbed, recipe, tmp_path):
     """Enough for two processes that work, too few for sixteen."""
     arguments = meshes, "--out", tmp_path / "out", "--recipe", recipe, "--workers"
-    limit = limited(resource.RLIMIT_NOFILE, 24)
+    limit = limited(resource.RLIMIT_NOFILE, 14)
     done = run(*arguments, 16, preexec_fn=limit)
     assert done.returncode == MACHINE, done.stderr
     assert len(done.stderr.splitlines()) == 1 and "Too many open files" in done.stderr
