@@ -42,7 +42,7 @@ def main_maps(obj):
 
 
 def island_count(obj):
-    """Of one part."""
+    """The object has one part."""
     (found,) = main_maps(obj)
     return int(re.search(r"into (\d+) piece|in one piece", found["why"])[1] or 1)
 
@@ -115,7 +115,7 @@ def test_the_angle_decides():
 def test_a_smooth_closed_mesh_says_what_to_do():
     obj = primitive(bpy.ops.mesh.primitive_ico_sphere_add, subdivisions=4)
     before = everything(obj)
-    with pytest.raises(RuntimeError, match="no seams cut it open: mark some, or let hard edges be cut"):
+    with pytest.raises(RuntimeError, match="no edge is that sharp: choose a smaller angle"):
         bpy.ops.uv.holomorphic_islands()
     assert everything(obj) == before
 

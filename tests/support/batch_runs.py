@@ -79,7 +79,7 @@ def statuses(out):
 
 
 def children(pid):
-    """Of all its threads."""
+    """That of all its threads."""
     return [int(child) for of in Path(f"/proc/{pid}/task").glob("*/children") for child in of.read_text().split()]
 
 

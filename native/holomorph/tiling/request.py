@@ -151,9 +151,10 @@ class Request:
         options = {"main": self.main, "effort": real_number(self.effort, "effort", positive=True)}
         options |= {"evenness": checked_evenness(self.evenness), "lines": self.lines, "tiling": self.tiling(surface)}
         part, core = (structure._part, structure._core) if structure else (part_of(surface), None)
-        cuts = {"hard_edges": self.hard_edges, "most_stretch": self.most_stretch}
-        cuts = {name: given and real_number(given, name, positive=True) for name, given in cuts.items()}
-        if 0 < cuts["most_stretch"] <= 1:
+        cuts = {name: real_number(getattr(self, name), name) for name in ("hard_edges", "most_stretch")}
+        if cuts["hard_edges"] < 0:
+            raise ValueError(f"hard_edges is {quoted(self.hard_edges)}; degrees are needed, or 0")
+        if cuts["most_stretch"] != 0 and cuts["most_stretch"] <= 1:
             raise ValueError(f"most_stretch is {quoted(self.most_stretch)}; a factor above 1 is needed, or 0")
         return _native.Request(
             part, core, **options, **cuts, seams=_own_edges(surface, only_component(surface), self.seams, "seams")

@@ -248,9 +248,9 @@ Sides sides_of(const mesh::Surface& surface) {
   return result;
 }
 
-Cuts::Cuts(const mesh::Surface& surface, std::vector<char> is_hard, Execution& execution)
+Cuts::Cuts(const mesh::Surface& surface, std::vector<char> is_hard, bool to_tips, Execution& execution)
     : surface_(&surface), sides_(sides_of(surface)), is_cut_(std::move(is_hard)) {
-  add(mesh::cuts_to_tips(surface, is_cut_, execution));
+  if (to_tips) add(mesh::cuts_to_tips(surface, is_cut_, execution));
   const mesh::Surface open = pieces(execution);
   execution.stage("cuts", 0, 1);
   add(of_pieces(open, cuts_to_disks(open, execution)));

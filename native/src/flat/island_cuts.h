@@ -44,9 +44,9 @@ using Joint = std::array<int, 4>;
 /// Where a surface is cut. Pieces have its polygons and corners; triangles at cuts may be others.
 class Cuts {
  public:
-  /// The hard edges, and from them to the tips, and on until all pieces are disks but for small holes. The surface
-  /// outlives this. @param is_hard #E
-  Cuts(const mesh::Surface& surface, std::vector<char> is_hard, Execution& execution);
+  /// The hard edges, and on until all pieces are disks but for small holes. The surface outlives this.
+  /// @param is_hard #E. @param to_tips whether cuts go from them to the tips
+  Cuts(const mesh::Surface& surface, std::vector<char> is_hard, bool to_tips, Execution& execution);
 
   const std::vector<char>& is_cut() const { return is_cut_; }
   const Sides& sides() const { return sides_; }

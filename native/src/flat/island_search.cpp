@@ -21,7 +21,8 @@ constexpr double kMany = 1;
 // Radians of curvature, all of it counted positive, up to which a part with several loops is tried.
 constexpr double kFlatPart = 2 * std::numbers::pi;
 constexpr double kStretched = 2.5;  // factor of lengths, from which on a piece is also tried with cuts to cone points
-constexpr const char* kNotFlat = "no seams cut it open: mark some, or let hard edges be cut";
+constexpr const char* kNoSeams = "no seams cut it open: mark some, or let hard edges be cut";
+constexpr const char* kNoneSharp = "no edge is that sharp: choose a smaller angle, or mark seams";
 constexpr int kMostCones = 32;          // cuts of each piece to cone points where these are asked for
 constexpr int kCones = 8, kRounds = 4;  // at most: cuts of each piece to cone points in a round, and rounds
 
@@ -79,7 +80,7 @@ std::shared_ptr<const Layout> IslandSearch::search(double most, Run run, Executi
   std::optional<Layout> found;
   for (const double degrees : kHardAngles) {
     if (!is_tried(degrees, found || degrees > kSmoothAngle)) continue;
-    const Cuts cuts(sheet_.surface, hard(degrees), execution);
+    const Cuts cuts(sheet_.surface, hard(degrees), true, execution);
     if (auto made = along(cuts, found ? cost(*found, run) : most, run, execution)) found = std::move(made);
     if (found && uv::cost_of_squares(found->quality) <= kFine) break;
   }
@@ -119,7 +120,7 @@ std::shared_ptr<const Layout> IslandSearch::along(const ChosenCuts& chosen, Exec
     const int edge = mesh::edge_between(polygon_edges, std::min(a, b), std::max(a, b));
     if (edge >= 0) is_cut[edge] = 1;
   }
-  Cuts cuts(surface, std::move(is_cut), execution);
+  Cuts cuts(surface, std::move(is_cut), chosen.hard_degrees > 0, execution);
   std::optional<Flattened> made = Flattened::of(sheet_, cuts, execution);
   const auto again = [&](const std::vector<char>& more) {
     if (!made || !cuts.add(more)) return false;
@@ -134,7 +135,7 @@ std::shared_ptr<const Layout> IslandSearch::along(const ChosenCuts& chosen, Exec
     uv = made->evened(options_.evenness, execution);
     if (round == kRounds || !again(cuts.across_overlaps(made->pieces(), uv, execution))) break;
   }
-  if (!made) throw TopologyError(kNotFlat);
+  if (!made) throw TopologyError(chosen.hard_degrees > 0 ? kNoneSharp : kNoSeams);
   const bool is_evened = options_.evenness > 0;
   Layout result = made->laid_out(is_evened ? made->evened(0, execution) : uv, 0, nullptr, false, execution);
   if (is_evened) result = made->laid_out(uv, options_.evenness, &result, false, execution);

@@ -110,8 +110,10 @@ def test_a_cone_and_a_can_and_a_bracket_are_flattened_without_shearing():
 def test_the_angle_decides():
     surface = surface_of(families.cube())
     assert islands(surface, hard_edges=89.9).islands == 6
-    with pytest.raises(TopologyError, match="no seams cut it open"):
+    with pytest.raises(TopologyError, match="no edge is that sharp"):
         islands(surface, hard_edges=90.1)
+    with pytest.raises(TopologyError, match="no seams cut it open"):
+        islands(surface)
 
 
 def test_seams_count_besides():

@@ -158,7 +158,7 @@ def test_troubleshooting_quotes_what_is_said():
     files = [
         *(ROOT / "addon").rglob("*.py"),
         *ROOT.glob("native/holomorph/**/*.py"),
-        *ROOT.glob("native/src/tiling/**/*.cpp"),
+        *ROOT.glob("native/src/**/*.cpp"),
     ]
     said = "\n".join(path.read_text("utf-8") for path in files).lower()
     quoted = re.findall(r'"([^"]+)"', text_of("docs/troubleshooting.md"))
