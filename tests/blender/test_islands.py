@@ -4,7 +4,6 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from island_checks import cut_along
 from packed import FLOAT32, assert_packed, capped_cylinder, whole_surface
 from scenes import everything, mesh_io, mesh_object, native, run, select, stored_report, torus_arrays, uv
 
@@ -37,7 +36,12 @@ def shuffle_vertices(obj):
 
 
 def cut_parts(obj):
-    return cut_along(whole_surface(obj), mesh_io.marked_edges(obj.data, "use_seam"))
+    """The parts of its surface between the seams."""
+    native.load()
+    mesh, surface = native.holomorph.mesh, whole_surface(obj)
+    seams, count = mesh_io.marked_edges(obj.data, "use_seam"), len(surface.vertices)
+    keys, cut = (mesh.edges.edge_keys(ends, count) for ends in (surface._native.edges, seams))
+    return mesh.cut_open.cut_open(surface, np.isin(keys, cut)).components
 
 
 def similarities(obj):
