@@ -19,6 +19,7 @@ from ..solving import jobs
 
 FACES = {"AUTOMATIC": jobs.SELECTED, "FACES": jobs.ASKED}  # by the use of the selection
 AXES = "XYZ"
+MOST_SHARP = 0.5  # part of the edges: marks of more do not tell where islands end
 ALLOWING = 0.5  # weight of a vertex above which a pole may be there
 OF_SIZE = "main", "tiles", "size", "repeats", "equal"  # dials that decide how large tiles are
 SQUARES = 4  # of the checker, across an image
@@ -136,9 +137,11 @@ def _wanted(dials, target, own):
 
 
 def _cuts(dials, target):
-    """The fields of a `Request` that say where islands are cut; edges that are marked sharp are hard."""
+    """The fields of a `Request` that say where islands are cut. Edges that are marked sharp are hard, but where most
+    are, as in files of faces with flat shading."""
     seams, degrees = target.chosen.seams, math.degrees(dials.hard_edges)
-    seams = np.concatenate([seams, target.sharp]) if degrees else seams
+    are_few = MOST_SHARP * len(target.polygons.corner_vertices) > 2 * len(target.sharp)  # an edge has two corners
+    seams = np.concatenate([seams, target.sharp]) if degrees and are_few else seams
     return {
         "seams": seams,
         "hard_edges": degrees,

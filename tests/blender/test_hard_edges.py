@@ -69,6 +69,14 @@ def test_edges_that_are_marked_sharp_are_hard_whatever_their_angle():
     assert island_count(obj) == 4
 
 
+def test_marks_of_flat_shading_are_no_hard_edges():
+    obj = capped_cylinder()
+    for edge in obj.data.edges:
+        edge.use_edge_sharp, edge.use_seam = True, False
+    assert bpy.ops.uv.holomorphic_islands(hard_edges=math.radians(60)) == {"FINISHED"}
+    assert island_count(obj) == 3
+
+
 def test_the_maps_operator_goes_on_with_islands_until_it_is_told_otherwise():
     obj = cone()
     assert bpy.ops.uv.holomorphic_islands() == {"FINISHED"}
