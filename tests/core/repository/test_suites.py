@@ -142,3 +142,10 @@ def test_all_suites_have_a_row(program):
     assert program.chosen(["--suite", "fuzz", "--suite", "lint"]) == (["fuzz", "lint"], True)
     with pytest.raises(SystemExit, match="2"):
         program.chosen(["--suite", "nothing"])
+
+
+def test_what_the_sanitizers_run_is_there(program):
+    """pytest ends with an error where one of its tests is not."""
+    for name in importlib.import_module("suites").SANITIZED:
+        path, _, test = name.partition("::")
+        assert f"def {test}" in (ROOT / "tests" / "core" / path).read_text("utf-8"), name
