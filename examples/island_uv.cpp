@@ -14,7 +14,7 @@ int main(int argc, char** argv) try {
   options.up = holomorph::uv::Up::kY;  // as in OBJ files
   const auto made = holomorph::flat::island_map(part, options, execution);
   if (!made) throw holomorph::Error("no piece of the mesh may be closed");
-  std::cout << std::setprecision(17) << made->count << " " << made->cost() << "\n" << made->uv << "\n";
+  std::cout << std::setprecision(17) << made->islands << " " << made->cost() << "\n" << made->uv << "\n";
 } catch (const holomorph::Error& error) {
   std::cerr << error.what() << "\n";
   return 1;
