@@ -1,7 +1,5 @@
 """Runs inside Blender with a window: looks at what is drawn over the 3D view, and writes down colours of its pixels."""
 
-import json
-
 import addon_utils
 import bpy
 import numpy as np
@@ -108,11 +106,9 @@ def poles():
     points = addon("scene.mesh_io").world_points(obj)
     corners = {"pole": (0, 1, 0.4), "behind": (0, -1, -0.4), "branch point": (1, 0, 0.4)}
     marked = {name: int(np.argmin(np.linalg.norm(points - place, axis=1))) for name, place in corners.items()}
-    stored = addon("results.report").PROPERTY
-    report = json.loads(obj[stored])
-    tiling = {"poles": [marked["pole"], marked["behind"]], "zeros": [marked["branch point"]], "cones": []}
-    report["components"][0]["tiling"] |= tiling
-    obj[stored] = json.dumps(report)
+    stored = addon("results.stored")
+    kinds = {"pole": stored.POLE, "behind": stored.POLE, "branch point": stored.ZERO}
+    addon("scene.stored_dials").made(obj).points = " ".join(f"{marked[name]} {kind}" for name, kind in kinds.items())
     places = {name: projected(points[vertex]) for name, vertex in marked.items()}
     unit, (x, y) = bpy.context.preferences.system.ui_scale, addon("overlays.marks_view").LEGEND
     places["legend"] = (region(area("VIEW_3D"), "WINDOW").width / 2 + unit * x, unit * y)
