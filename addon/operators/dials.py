@@ -74,7 +74,7 @@ class HOLOMORPH_made(bpy.types.PropertyGroup):
     map : the name of the main map, "" for none
     shape_key : of the mesh; scale_of : the object with the same mesh whose scale was taken, "" for its own
     is_selection : only some faces were mapped
-    size, lattice : the fields of `mapped.TileOptions`, as Python writes them
+    size, lattice : the fields of a `Request`, as Python writes them
     together : objects whose tiles have one size
     own_turns, averaged : of the texture of the user's that is shown, see `user_texture.Own`; 0 without one
     is_tiled : whether parts have tilings, or pieces of them; turns : the part of a full turn by which these turn
