@@ -27,8 +27,8 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
     given = [(one.component.surface, one.map, one.skipped, one.component.note) for one in made.parts]
     about = holomorph.report.parts_report(given, solved.surface.refused, _repairs(solved), made.arrangement)
     dials, asked = {"forms": made.forms, "main": made.main, **asdict(made.arrangement)}, asdict(made.request)
-    for name in ("allowed", "marked", "seams"):  # a vertex group and the marks of the object say them
-        del asked[name]
+    # A vertex group and the marks of the object say the others.
+    asked = {name: value for name, value in asked.items() if name not in ("allowed", "marked", "seams")}
     return {
         "object": obj.name,
         "mesh": obj.data.name,

@@ -152,10 +152,9 @@ class Request:
         options |= {"evenness": checked_evenness(self.evenness), "lines": self.lines, "tiling": self.tiling(surface)}
         part, core = (structure._part, structure._core) if structure else (part_of(surface), None)
         cuts = {name: real_number(getattr(self, name), name) for name in ("hard_edges", "most_stretch")}
-        if cuts["hard_edges"] < 0:
-            raise ValueError(f"hard_edges is {quoted(self.hard_edges)}; degrees are needed, or 0")
-        if cuts["most_stretch"] != 0 and cuts["most_stretch"] <= 1:
-            raise ValueError(f"most_stretch is {quoted(self.most_stretch)}; a factor above 1 is needed, or 0")
+        for name, least in (("hard_edges", 0), ("most_stretch", 1)):
+            if cuts[name] != 0 and cuts[name] <= least:
+                raise ValueError(f"{name} is {quoted(getattr(self, name))}; a number above {least} is needed, or 0")
         return _native.Request(
             part, core, **options, **cuts, seams=_own_edges(surface, only_component(surface), self.seams, "seams")
         )

@@ -113,8 +113,7 @@ std::shared_ptr<const Layout> IslandSearch::along(const ChosenCuts& chosen, Exec
   execution.part(0, 0);  // how long it takes is not known
   const Execution::Within within(execution);
   const mesh::Surface& surface = sheet_.surface;
-  std::vector<char> is_cut(surface.edges.size(), 0);
-  if (chosen.hard_degrees > 0) is_cut = hard(chosen.hard_degrees);
+  std::vector<char> is_cut = hard(chosen.hard_degrees > 0 ? chosen.hard_degrees : kInfinity);
   const std::span polygon_edges(surface.edges.data(), surface.polygon_edge_count);
   for (const auto& [a, b] : chosen.seams) {
     const int edge = mesh::edge_between(polygon_edges, std::min(a, b), std::max(a, b));

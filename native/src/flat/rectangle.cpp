@@ -54,8 +54,8 @@ void check_corners(const std::vector<int>& corners, const std::vector<int>& plac
   }
 }
 
-RectangleSides sides_of(const std::vector<int>& loop, const std::vector<int>& corners, int vertex_count,
-                        const Labels& label) {
+FourSides sides_of(const std::vector<int>& loop, const std::vector<int>& corners, int vertex_count,
+                   const Labels& label) {
   const int n = static_cast<int>(loop.size());
   std::vector<int> place(vertex_count, -1);
   for (int i = 0; i < n; ++i) place[loop[i]] = i;
@@ -70,7 +70,7 @@ RectangleSides sides_of(const std::vector<int>& loop, const std::vector<int>& co
     throw TopologyError(
         "the rectangle corners are not in the order of the boundary, the surface on its left: that is " + order);
   }
-  RectangleSides result;
+  FourSides result;
   for (int i = 0; i < 4; ++i) {
     const int end = i < 3 ? steps(corners[i + 1]) : n;
     for (int s = steps(corners[i]); s <= end; ++s) result[i].push_back(loop[(place[corners[0]] + s) % n]);
@@ -250,7 +250,7 @@ struct Coordinates {
   double harmonicity() const { return std::max(u.harmonicity, v.harmonicity); }
 };
 
-Coordinates coordinates(const mesh::Discretisation& discretisation, const RectangleSides& sides, const Options& options,
+Coordinates coordinates(const mesh::Discretisation& discretisation, const FourSides& sides, const Options& options,
                         double from, double to, Execution& execution) {
   const auto& [half_edges, lengths, weights, errors, metric_error, mollification, flips] = discretisation;
   const auto one = [&](int zero_side, int one_side) {
@@ -282,13 +282,13 @@ std::vector<Eigen::MatrixXd> certain_energies(const mesh::Discretisation& discre
 
 }  // namespace
 
-RectangleSides rectangle_sides(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
-                               const std::vector<int>& corners, const std::vector<int>& labels) {
+FourSides rectangle_sides(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
+                          const std::vector<int>& corners, const std::vector<int>& labels) {
   const auto boundary = checked_boundary(surface, half_edges);
   return sides_of(around(half_edges, boundary), corners, surface.vertex_count, Labels(labels));
 }
 
-std::vector<int> collapsed_triangles(const mesh::Surface& surface, const RectangleSides& sides) {
+std::vector<int> collapsed_triangles(const mesh::Surface& surface, const FourSides& sides) {
   std::vector<int> on(surface.vertex_count, 0);  // a bit for each side
   for (int i = 0; i < 4; ++i) {
     for (const int v : sides[i]) on[v] |= 1 << i;
@@ -340,7 +340,7 @@ PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& cor
   PlaneMap result;
   execution.stage("half-edges", 0.0, 0.1);
   auto half_edges = mesh::half_edges(surface, execution);
-  const RectangleSides sides = rectangle_sides(surface, half_edges, corners, labels);
+  const FourSides sides = rectangle_sides(surface, half_edges, corners, labels);
   result.corners = corners;
   result.collapsed_triangles = collapsed_triangles(surface, sides);
 

@@ -181,7 +181,7 @@ def test_the_map_is_the_same_at_any_number_of_threads():
         ({"hard_edges": -1}, "hard_edges is"),
         ({"hard_edges": np.nan}, "hard_edges is"),
         ({"hard_edges": "40"}, "hard_edges is"),
-        ({"most_stretch": 0.5}, "most_stretch is 0.5; a factor above 1 is needed"),
+        ({"most_stretch": 0.5}, "most_stretch is 0.5; a number above 1 is needed"),
         ({"most_stretch": -2}, "most_stretch is"),
     ],
 )
