@@ -64,23 +64,21 @@ MUTATIONS = (
         ("lengths-of-positions", "kOfDistance = 3.5 * kUnit", "kOfDistance = 0.35 * kUnit", LENGTHS),
         ("lengths-given", "kOfGivenLength = 2.5 * kUnit", "kOfGivenLength = 0.25 * kUnit", LENGTHS),
         ("weights", "kOfLargest = 3 * kUnit", "kOfLargest = 0.3 * kUnit", LENGTHS),
-        ("weights-unit", "epsilon() / 2;  // the unit", "epsilon() / 20;  // the unit", WEIGHTS),
         ("weights-of-needles", "kOfSharpSquares = 3 *", "kOfSharpSquares = 0.3 *", WEIGHTS),
         ("weights-cancelling", "kOfSharpCotangent = 39 *", "kOfSharpCotangent = 0 *", WEIGHTS),
         ("weights-grown", "kOfErrors = 3 *", "kOfErrors = 0.3 *", WEIGHTS),
         ("growth-tenth", "return is_open ? 1 : eta", "return is_open ? 1 : 0.1 * eta", LENGTHS),
         ("weights-left-blunt", "return {sharp,", "return {{given},", WEIGHTS),
     )
+    | of(ROOM + "base/constants.h", ("unit", "epsilon() / 2", "epsilon() / 20", WEIGHTS, DENSE, LENGTHS, SUMS))
     | of(
         ROOM + "mesh/delaunay.cpp",
-        ("flipped-unit", "kUnit = std::numeric_limits<double>::epsilon() / 2", "kUnit = 1.1e-17", LENGTHS),
         ("flipped-length", "return {length, rounding}", "return {length, 0.1 * rounding}", LENGTHS),
         ("delaunay-tolerance", "kDelaunayTolerance = 1e-9", "kDelaunayTolerance = 1e-3", DELAUNAY),
     )
     | of(ROOM + "mesh/triangle_geometry.h", ("flatness", "kFlatMargin = 1e-15", "kFlatMargin = 1e-13", DELAUNAY))
     | of(
         ROOM + "forms/gram_matrices.cpp",
-        ("gram-unit", "epsilon() / 2", "epsilon() / 20", SUMS),
         ("gram-sums", "kUnit * (gram.summands + 6)", "kUnit * 0.1 * (gram.summands + 6)", SUMS),
         ("gram-values", "3 * of_values", "0.3 * of_values", SUMS),
         ("gram-zero-weights", "k == 0 && (w.errors.empty() || w.errors[e] == 0)", "k == 0", "native:*GramMatrices*"),
@@ -94,7 +92,6 @@ MUTATIONS = (
     )
     | of(
         ROOM + "forms/certain_bounds.cpp",
-        ("dense-unit", "epsilon() / 2", "epsilon() / 20", DENSE),
         ("dense-products", "2 * G.rows() + 2", "0.2 * G.rows() + 0.2", DENSE),
         ("dense-inverse", "2 * X - above_congruent(X, A)", "X", DENSE),
         ("dense-real-parts", "MatrixXd R = (G - below) / 2", "MatrixXd R = (G - below) / 20", DENSE),

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "uv/quality.h"
 
 namespace holomorph::bindings {
 
@@ -21,6 +22,9 @@ namespace py = pybind11;
 
 template <class T>
 using Contiguous = py::array_t<T, py::array::c_style | py::array::forcecast>;
+
+/// UVs of corners, as the native core takes them.
+inline Eigen::Map<const uv::UvArray> corners(const Contiguous<double>& uv) { return {uv.data(), uv.shape(0), 2}; }
 
 inline py::array read_only(py::array array) {
   array.attr("setflags")(py::arg("write") = false);

@@ -24,8 +24,6 @@ namespace {
 using flat::PlaneMap;
 using Complex = std::complex<double>;
 
-Eigen::Map<const uv::UvArray> corners(const Contiguous<double>& uv) { return {uv.data(), uv.shape(0), 2}; }
-
 std::pair<py::array, py::array> zeros(const mesh::Surface& surface, const Contiguous<double>& uv,
                                       const std::vector<int>& poles) {
   return zeros_by_columns(uv::zeros(surface, corners(uv), poles));

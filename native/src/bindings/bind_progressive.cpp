@@ -24,8 +24,8 @@ using progressive::ProgressiveMesh;
 using Pointer = std::shared_ptr<ProgressiveMesh>;
 using SurfacePointer = std::shared_ptr<mesh::Surface>;
 
-Pointer make(const mesh::Surface& surface, const std::string& order, const std::vector<int>& kept,
-             const py::object& progress) {
+Pointer progressive_of(const mesh::Surface& surface, const std::string& order, const std::vector<int>& kept,
+                       const py::object& progress) {
   const auto which = order == "quadric" ? progressive::Order::quadric : progressive::Order::independent;
   return unlocked(0, progress, [&](Execution& execution) {
     return std::make_shared<ProgressiveMesh>(progressive_mesh(surface, which, execution, kept));
@@ -135,7 +135,7 @@ void bind_progressive_meshes(py::module_& m) {
     return [member](py::object self) { return view(self.cast<const ProgressiveMesh&>().*member, self); };
   };
   py::class_<ProgressiveMesh, Pointer>(m, "ProgressiveMesh")
-      .def_static("make", &make, py::arg("surface"), py::arg("order"), py::arg("kept"), py::arg("progress"))
+      .def_static("make", &progressive_of, py::arg("surface"), py::arg("order"), py::arg("kept"), py::arg("progress"))
       .def_static("of_arrays", &of_arrays, py::arg("base_triangles"), py::arg("split_vertices"), py::arg("split_slots"),
                   py::arg("positions"), py::arg("vertex_index"), py::arg("triangle_index"), py::arg("triangle_corners"),
                   py::arg("face_offsets"))

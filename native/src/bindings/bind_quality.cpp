@@ -21,18 +21,16 @@ using namespace pybind11::literals;
 using uv::Distortion;
 using uv::Quality;
 
-Eigen::Map<const uv::UvArray> corners(const Contiguous<double>& uv) { return {uv.data(), uv.shape(0), 2}; }
-
 // compute(workers), without the interpreter's lock.
 template <class Compute>
-auto unlocked(int threads, const Compute& compute) {
+auto measured(int threads, const Compute& compute) {
   const py::gil_scoped_release released;
   Workers workers(threads);
   return compute(workers);
 }
 
 Quality quality(const mesh::Surface& surface, const Contiguous<double>& uv, int threads) {
-  return unlocked(threads, [&](Workers& workers) { return uv::quality(surface, corners(uv), workers); });
+  return measured(threads, [&](Workers& workers) { return uv::quality(surface, corners(uv), workers); });
 }
 
 template <class T>
@@ -55,11 +53,11 @@ Quality quality_of(const Contiguous<double>& angle, const Contiguous<double>& ar
 }
 
 Quality joined(const std::vector<const Quality*>& qualities, const std::vector<double>& densities) {
-  return unlocked(1, [&](Workers& workers) { return uv::joined(qualities, densities, workers); });
+  return measured(1, [&](Workers& workers) { return uv::joined(qualities, densities, workers); });
 }
 
 uv::Direction direction(const mesh::Surface& surface, const Contiguous<double>& uv, const std::string& up, int turns) {
-  return unlocked(1,
+  return measured(1,
                   [&](Workers& workers) { return uv::direction(surface, corners(uv), up_axis(up), turns, workers); });
 }
 
@@ -83,13 +81,13 @@ mesh::Polygons polygons(const Contiguous<double>& vertices, const Contiguous<int
 Distortion distortion(const Contiguous<double>& vertices, const Contiguous<int>& corner_vertices,
                       const Contiguous<int>& face_offsets, const Contiguous<double>& uv, const std::string& up) {
   const mesh::Polygons drawn = polygons(vertices, corner_vertices, face_offsets, uv);
-  return unlocked(1, [&](Workers& workers) { return uv::distortion(drawn, corners(uv), up_axis(up), workers); });
+  return measured(1, [&](Workers& workers) { return uv::distortion(drawn, corners(uv), up_axis(up), workers); });
 }
 
 double drawn_density(const Contiguous<double>& vertices, const Contiguous<int>& corner_vertices,
                      const Contiguous<int>& face_offsets, const Contiguous<double>& uv) {
   const mesh::Polygons drawn = polygons(vertices, corner_vertices, face_offsets, uv);
-  return unlocked(1, [&](Workers& workers) { return uv::drawn_densities(drawn, corners(uv), workers).median; });
+  return measured(1, [&](Workers& workers) { return uv::drawn_densities(drawn, corners(uv), workers).median; });
 }
 
 double overlapping_part(const Contiguous<std::complex<double>>& curve, const py::object& progress) {
@@ -102,7 +100,7 @@ double overlapping_part(const Contiguous<std::complex<double>>& curve, const py:
   return uv::overlapping_part(edges, execution);
 }
 
-void bind_values(py::module_& m) {
+void bind_measures(py::module_& m) {
   const auto of_direction = [](auto member) {
     return [member](py::object self) { return view(self.cast<const uv::Direction&>().*member, self); };
   };
@@ -150,7 +148,7 @@ void bind_values(py::module_& m) {
 }  // namespace
 
 void bind_quality(py::module_& m) {
-  bind_values(m);
+  bind_measures(m);
   m.attr("most_octaves") = uv::kMostOctaves;
   m.attr("collapsed_angle") = uv::kCollapsedAngle;
   m.attr("prices") =

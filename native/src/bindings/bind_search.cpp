@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/constants.h"
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/records.h"
@@ -44,7 +45,7 @@ StructurePointer solved(const Shared& made) {
   return truncated ? truncated->solved() : nullptr;
 }
 
-std::shared_ptr<flat::PlaneMap> plane_map(const Shared& made) {
+std::shared_ptr<flat::PlaneMap> plane_map_of(const Shared& made) {
   const auto plane = std::dynamic_pointer_cast<PlaneStructure>(made);
   return plane ? shared(plane->map()) : nullptr;
 }
@@ -55,7 +56,7 @@ void bind_any_structure(py::module_& m) {
       .def_property_readonly("is_truncated",
                              [](const Shared& made) { return bool(std::dynamic_pointer_cast<Truncated>(made)); })
       .def_property_readonly("solved", &solved)
-      .def_property_readonly("plane_map", &plane_map)
+      .def_property_readonly("plane_map", &plane_map_of)
       .def(
           "uv",
           [](AnyStructure& made, const Eigen::VectorXcd& coefficients, int threads) {
@@ -177,7 +178,7 @@ void bind_maps_of_parts(py::module_& m) {
         return unlocked(threads, progress, [&](Execution& execution) {
           execution.stage("map", 0.0, 1.0);
           Untiled untiled(part, nullptr, evenness, true, execution);
-          return shared(untiled.islands(Untiled::kInfinity, Untiled::kInfinity, execution));
+          return shared(untiled.islands(kInfinity, kInfinity, execution));
         });
       },
       "part"_a, py::kw_only(), "evenness"_a, "threads"_a, "progress"_a);

@@ -233,7 +233,7 @@ py::array as_flags(std::vector<char> values) { return give(std::move(values)).at
 
 // compute(execution), without the interpreter's lock.
 template <class Compute>
-auto unlocked(const Compute& compute) {
+auto executed(const Compute& compute) {
   const py::gil_scoped_release released;
   Execution execution;
   return compute(execution);
@@ -241,7 +241,7 @@ auto unlocked(const Compute& compute) {
 
 // (surface, (#V,) the vertex that each of its is a copy of)
 std::pair<std::shared_ptr<Surface>, py::array> cut_open(const Surface& surface, const Flags& is_cut) {
-  mesh::OpenSurface made = unlocked([&, cut = flags(is_cut)](Execution& e) { return mesh::cut_open(surface, cut, e); });
+  mesh::OpenSurface made = executed([&, cut = flags(is_cut)](Execution& e) { return mesh::cut_open(surface, cut, e); });
   return {std::make_shared<Surface>(std::move(made.surface)), give(std::move(made.vertex_index))};
 }
 
@@ -319,7 +319,7 @@ void bind_cuts(py::module_& m) {
       "bends", [](const Surface& surface) { return give(mesh::bends(surface)); }, "surface"_a);
   m.def(
       "breaks",
-      [](const Surface& surface) { return give(unlocked([&](Execution&) { return mesh::breaks(surface); })); },
+      [](const Surface& surface) { return give(executed([&](Execution&) { return mesh::breaks(surface); })); },
       "surface"_a);
   m.def(
       "face_normals", [](const Surface& surface) { return copy_rows(mesh::face_normals(surface)); }, "surface"_a);
@@ -337,7 +337,7 @@ void bind_cuts(py::module_& m) {
   m.def(
       "paths_to_border",
       [](const Surface& surface, const Flags& is_border, const Flags& starts) {
-        return as_flags(unlocked([&, border = flags(is_border), from = flags(starts)](Execution& e) {
+        return as_flags(executed([&, border = flags(is_border), from = flags(starts)](Execution& e) {
           return mesh::paths_to_border(surface, border, from, e);
         }));
       },

@@ -18,7 +18,7 @@ namespace {
 
 using structure::Options;
 
-constexpr double kUneven = 10;  // size range of a disk map, above which others are tried
+constexpr double kUnevenDisk = 10;  // size range of a disk map, above which others are tried
 
 double density_ratio(AnyStructure& made, Execution& execution) {
   const uv::UvArray uv = made.uv(made.balanced_coefficients(execution), execution);
@@ -69,7 +69,7 @@ StructurePointer disk_structure(const PartPointer& part, const Options& options,
   }
   StructurePointer best = std::make_shared<Forms>(MapKind::kDisk, part, solved);
   double least = density_ratio(*best, execution);
-  if (std::sqrt(least) <= kUneven) return best;
+  if (std::sqrt(least) <= kUnevenDisk) return best;
   std::vector<StructurePointer> others{std::make_shared<Forms>(MapKind::kLog, part, solved)};
   if (has_four_sides) others.push_back(rectangle(part, flat::quarter_corners(surface, execution), options, execution));
   for (const StructurePointer& other : others) {

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/constants.h"
 #include "uv/appearance.h"
 #include "uv/direction.h"
 #include "uv/evening.h"
@@ -117,7 +118,7 @@ void Map::measure(Execution& execution) {
   } else {
     drawn_ = {1, quality().median_density, quality().density_ratio};
   }
-  cost_ = std::numeric_limits<double>::infinity();
+  cost_ = kInfinity;
   const uv::UvArray& map = uv();
   const double size = map.rows() > 0 ? (map.colwise().maxCoeff() - map.colwise().minCoeff()).maxCoeff() : 0;
   if (size > flat::kScattered * std::sqrt(density() * part_->area)) return;
@@ -133,9 +134,7 @@ int Map::turns() const {
   return result;
 }
 
-double Map::drawn_range() const {
-  return drawn_.low > 0 ? std::sqrt(drawn_.high / drawn_.low) : std::numeric_limits<double>::infinity();
-}
+double Map::drawn_range() const { return drawn_.low > 0 ? std::sqrt(drawn_.high / drawn_.low) : kInfinity; }
 
 std::shared_ptr<const Map> Map::because(std::string why) const {
   auto result = std::make_shared<Map>(*this);

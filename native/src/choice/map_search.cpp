@@ -1,4 +1,5 @@
 #include "choice/map_search.h"
+#include "base/constants.h"
 #include "base/errors.h"
 #include "choice/any_structure.h"
 #include "choice/automatic_structure.h"
@@ -28,8 +29,6 @@ constexpr double kFar = 10;
 constexpr double kMostSeconds = 0.25, kMostPerTriangle = 2e-5;
 // Seconds for a value of a form on an edge, for a product of two of these, and for a product in a dense matrix of all.
 constexpr double kSolved = 3e-8, kMultiplied = 5e-11, kDense = 2e-9;
-
-constexpr double kInfinity = Untiled::kInfinity;
 
 // The cost of squares of another size than on other parts: as between those of one part (uv/appearance.h).
 double missed(const Map& made, double density, const Window& window) {

@@ -78,7 +78,7 @@ Shape shape_of(const Part& part, Weights& weights) {
 }
 
 template <class Values>
-bool are_alike(const Values& own, const Values& others, double scale, double tolerance) {
+bool are_near(const Values& own, const Values& others, double scale, double tolerance) {
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (!(std::abs(own[i] - scale * others[i]) <= tolerance)) return false;
   }
@@ -91,8 +91,8 @@ double scale_of(const Shape& one, const Shape& other) {
   const double scale = one.size / other.size, tolerance = one.rounding + scale * other.rounding;
   if (tolerance > kMostRounding * one.mean_length) return 0;
   if (std::abs(one.mean_length - scale * other.mean_length) > tolerance) return 0;
-  const bool is_copy = are_alike(one.surface->edge_lengths, other.surface->edge_lengths, scale, tolerance) &&
-                       are_alike(one.heights, other.heights, scale, tolerance);
+  const bool is_copy = are_near(one.surface->edge_lengths, other.surface->edge_lengths, scale, tolerance) &&
+                       are_near(one.heights, other.heights, scale, tolerance);
   return is_copy ? scale : 0;
 }
 

@@ -1,9 +1,9 @@
 #include "choice/piece_search.h"
+#include "base/constants.h"
 #include "choice/automatic_structure.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -131,7 +131,6 @@ MapPointer mixed_map(const PartPointer& part, const StructurePointer& structure,
                                      std::move(tilings));
 }
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUneven = 2.2;  // density ratio of a tiling, from which on it may be better to cut the part open
 
 // The edges of a piece that are marked on the part, by their vertices on the piece.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "base/constants.h"
 #include "choice/untiled.h"
 #include "mesh/hard_edges.h"
 #include "uv/appearance.h"
@@ -14,7 +14,6 @@
 namespace holomorph::choice {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Radians of curvature without tips, from which on a piece that is not a tube is more than sheets and cones.
 constexpr double kSmooth = 1;
 constexpr double kTubes = 0.5;  // part of the area of a part without islands, from which on its tubes are looked at

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <sstream>
 #include <string>
 #include <utility>
 
+#include "base/constants.h"
 #include "flat/arrangement.h"
 #include "uv/appearance.h"
 
@@ -24,7 +24,7 @@ constexpr double kRounded = 0.9;
 
 // The evened size range above which two more poles are tried, where that is quick, and tiles are so many that their
 // rounding decides less than the poles.
-constexpr double kUneven = 1.73, kManyTiles = 60;
+constexpr double kUnevenTiling = 1.73, kManyTiles = 60;
 constexpr int kMorePoles = 2, kMostPoles = 16, kFewTriangles = 5000;
 
 // Cost of a tiling without poles, expected and made, up to which the best map has no cones: all of its rows run round.
@@ -134,7 +134,7 @@ double TilingSearch::guess_without_poles(Execution& execution) {
 
 std::vector<MapPointer> TilingSearch::of_density(double density, int tries, Execution& execution) {
   std::vector<MapPointer> tilings;
-  double tiles = density * part_->area, below = 0, above = std::numeric_limits<double>::infinity();
+  double tiles = density * part_->area, below = 0, above = kInfinity;
   for (int attempt = 0; attempt < tries; ++attempt) {
     if (!tilings.empty() && !budget_.goes_on()) break;
     const auto next = [&] {
@@ -271,7 +271,7 @@ template <class WithCount>
 MapPointer TilingSearch::with_more_poles(const Map& first, const MapPointer& best, const WithCount& with_count) {
   const bool is_evened = first.tiling()->evenness > 0 && first.tiling()->tiles >= kManyTiles;
   const bool is_quick = part_->triangle_count() <= kFewTriangles;
-  const bool are_few = is_evened && is_quick && first.drawn_range() > kUneven && first.pole_count() < kMostPoles;
+  const bool are_few = is_evened && is_quick && first.drawn_range() > kUnevenTiling && first.pole_count() < kMostPoles;
   if (!are_few || !budget_.goes_on()) return best;
   return unless_refused([&] { return cheaper(best, with_count(first.pole_count() + kMorePoles)); },
                         [&](const Error&) { return best; });

@@ -22,7 +22,7 @@ constexpr double kSameUv = 1e-9;  // relative to the UV size: across an edge tha
 
 Complex at(const uv::UvArray& uv, int corner) { return {uv(corner, 0), uv(corner, 1)}; }
 
-double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double between(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 // The vertex farthest from the middle, and the one farthest from that; the first of equals. Between two polygons only,
 // a vertex would get two triangles with the same vertices.
@@ -37,7 +37,7 @@ std::vector<int> far_corners(const mesh::Polygons& polygons) {
   }
   for (double& each : middle) each /= static_cast<double>(points.size());
   const auto farthest = [&](const Point& from) {
-    return held(std::ranges::max_element(allowed, {}, [&](int v) { return distance(points[v], from); }), allowed);
+    return held(std::ranges::max_element(allowed, {}, [&](int v) { return between(points[v], from); }), allowed);
   };
   const int one = farthest(middle);
   return {one, farthest(points[one])};

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/constants.h"
 #include "mesh/hard_edges.h"
 #include "uv/appearance.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 // The work on a tiling, in millionths of about a second, for each triangle of the level on which poles are placed, and
 // of the part; how much of it is spent on islands where there is a tiling, and what is spent on them in any case.
-constexpr double kPlaced = 40, kLevel = 10'000, kRounded = 8;
+constexpr double kPlaced = 40, kLevel = 10'000, kRoundedPart = 8;
 constexpr double kBudget = 0.4, kLeastWork = 100'000;
 
 // What ask() finds; nothing where islands collapse or cannot be made: another map may be.
@@ -132,7 +133,7 @@ bool Untiled::may_flatten() {
 
 double Untiled::work() const {
   const double count = part_->triangle_count();
-  return kLeastWork + kBudget * (kPlaced * std::min(count, kLevel) + kRounded * count);
+  return kLeastWork + kBudget * (kPlaced * std::min(count, kLevel) + kRoundedPart * count);
 }
 
 }  // namespace holomorph::choice

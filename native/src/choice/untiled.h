@@ -1,7 +1,6 @@
 // The maps of a part without whole tiles: the balanced one of its structure, and flat islands.
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -25,8 +24,6 @@ inline constexpr double kMostCurved = 8 * std::numbers::pi;
 /// lines: on a smooth part they take longer than a tiling, and cost more.
 class Untiled {
  public:
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
   Untiled(PartPointer part, StructurePointer structure, double evenness, bool is_upright, Execution& execution);
 
   /// The best islands so far, if they were looked for.

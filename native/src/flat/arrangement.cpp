@@ -4,9 +4,10 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numeric>
 #include <utility>
+
+#include "base/constants.h"
 
 namespace holomorph::flat {
 namespace {
@@ -38,7 +39,6 @@ Shelves best_rows(const std::vector<Extent>& sizes, double gap) {
 
 using Complex = std::complex<double>;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Complex kCentre(0.5, 0.5);  // the middle of the UV square
 constexpr int kSingleBits = 24;       // bits of the mantissa of single precision, which applications store
 

@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "forms/laplacian.h"
 #include "linear/dense.h"
@@ -152,7 +153,7 @@ PlaneMap free_boundary_map(const mesh::Surface& surface, const Options& options,
 
 Eigen::VectorXcd disk_map(const structure::Structure& s, const uv::UvArray& function, Workers& workers) {
   const Eigen::VectorXcd at_vertex = function.col(0) + std::complex<double>(0, 1) * function.col(1);
-  Eigen::VectorXcd z = (std::complex<double>(0, 2 * std::numbers::pi) * at_vertex.array()).exp();
+  Eigen::VectorXcd z = (std::complex<double>(0, kTwoPi) * at_vertex.array()).exp();
   z[s.stars()[0].vertex] = 0;
   // v >= 0 in the disk, but on coarse meshes the discrete function may be negative inside.
   z = (z.array().abs() > 1 + kRounding).select(z.array() / z.array().abs(), z);
@@ -168,8 +169,8 @@ void require_sphere(const structure::Structure& s) {
 PointArray sphere_map(const structure::Structure& s, const uv::UvArray& function, Workers& workers) {
   // With x = -log |z| = 2 pi v, the height (1 - |z|^2) / (1 + |z|^2) is tanh x, and the distance from the axis 1 / cosh
   // x.
-  const Eigen::VectorXcd angle = 2 * std::numbers::pi / held(s.poles).chosen.residues[0] *
-                                 (function.col(0) + std::complex<double>(0, 1) * function.col(1));
+  const Eigen::VectorXcd angle =
+      kTwoPi / held(s.poles).chosen.residues[0] * (function.col(0) + std::complex<double>(0, 1) * function.col(1));
   const Eigen::VectorXd turn = angle.real();
   Eigen::VectorXd rise = angle.imag();
   auto areas = mesh::vertex_areas(*s.surface, s.surface->edge_lengths);

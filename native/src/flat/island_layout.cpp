@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <tuple>
 
+#include "base/constants.h"
 #include "flat/arrangement.h"
 #include "flat/split_overlaps.h"
 #include "mesh/hard_edges.h"
@@ -237,7 +237,6 @@ int pack_nets(uv::UvArray& uv, const std::vector<int>& net) {
   for (const int k : net) number[k] = 0;
   int count = 0;
   for (int& own : number) own = own < 0 ? -1 : count++;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::vector<Extent> low(count, {kInfinity, kInfinity}), high(count, {-kInfinity, -kInfinity});
   for (Eigen::Index c = 0; c < uv.rows(); ++c) {
     for (int i = 0; i < 2; ++i) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <span>
 #include <utility>
 
+#include "base/constants.h"
 #include "mesh/components.h"
 #include "mesh/cut_open.h"
 #include "mesh/hard_edges.h"
@@ -19,7 +19,7 @@ constexpr double kFine = 0.3;  // cost of the squares, from which on no other an
 // Length of hard edges over the square root of the area, from which on these shape the part.
 constexpr double kMany = 1;
 // Radians of curvature, all of it counted positive, up to which a part with several loops is tried.
-constexpr double kFlatPart = 2 * std::numbers::pi;
+constexpr double kFlatPart = kTwoPi;
 constexpr double kStretched = 2.5;  // factor of lengths, from which on a piece is also tried with cuts to cone points
 constexpr const char* kNoSeams = "no seams cut it open: mark some, or let hard edges be cut";
 constexpr const char* kNoneSharp = "no edge is that sharp: choose a smaller angle, or mark seams";
@@ -241,7 +241,7 @@ Layout IslandSearch::as_given(Layout found, Execution& execution) const {
 std::shared_ptr<const Layout> island_map(const mesh::Surface& surface, const IslandOptions& options,
                                          Execution& execution) {
   IslandSearch search(surface, options, execution);
-  return search.best(IslandSearch::kInfinity, IslandSearch::kInfinity, execution);
+  return search.best(kInfinity, kInfinity, execution);
 }
 
 }  // namespace holomorph::flat

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "base/constants.h"
 #include "base/execution.h"
 #include "flat/island_layout.h"
 #include "mesh/surface.h"
@@ -42,8 +42,6 @@ class IslandSearch {
  public:
   /// @pre the surface is connected and has positions
   IslandSearch(const mesh::Surface& surface, const IslandOptions& options, Execution& execution);
-
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
   /// The best that was found.
   const std::shared_ptr<const Layout>& known() const { return known_; }

@@ -17,10 +17,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kSpeck = 0.01;   // part of the area: less than that beside a piece does not divide a part
-constexpr double kWorth = 0.03;   // part of the area, from which on a piece is looked at by itself
-constexpr std::size_t kEnds = 2;  // the longest boundary loops of a tube
-constexpr double kDigits = 1e9;   // of lengths over the longest edge: loops that differ by less are equally long
+constexpr double kSpeck = 0.01;        // part of the area: less than that beside a piece does not divide a part
+constexpr double kWorth = 0.03;        // part of the area, from which on a piece is looked at by itself
+constexpr std::size_t kEnds = 2;       // the longest boundary loops of a tube
+constexpr double kCoarseDigits = 1e9;  // of lengths over the longest edge: loops that differ by less are equally long
 
 struct Window {
   std::vector<int> vertices;  // around the hole, which lies on the left
@@ -80,7 +80,7 @@ mesh::Surface without_windows(const mesh::Surface& surface, Execution& execution
     Window& made = loops.emplace_back();
     for (const auto h : loop) {
       made.vertices.push_back(mesh::from_vertex(half_edges, h));
-      made.length += std::nearbyint(surface.edge_lengths[mesh::edge_of(h)] / longest * kDigits);
+      made.length += std::nearbyint(surface.edge_lengths[mesh::edge_of(h)] / longest * kCoarseDigits);
     }
   }
   if (loops.size() <= kEnds) return surface;

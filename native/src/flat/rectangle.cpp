@@ -54,8 +54,8 @@ void check_corners(const std::vector<int>& corners, const std::vector<int>& plac
   }
 }
 
-FourSides sides_of(const std::vector<int>& loop, const std::vector<int>& corners, int vertex_count,
-                   const Labels& label) {
+FourSides sides_between(const std::vector<int>& loop, const std::vector<int>& corners, int vertex_count,
+                        const Labels& label) {
   const int n = static_cast<int>(loop.size());
   std::vector<int> place(vertex_count, -1);
   for (int i = 0; i < n; ++i) place[loop[i]] = i;
@@ -88,15 +88,15 @@ constexpr double kMeanCorner = std::numbers::pi / 3;
 constexpr std::array<double, 5> kParts = {1.0 / 256, 1.0 / 128, 1.0 / 64, 1.0 / 32, 1.0 / 16};
 
 // The boundary, the surface on its left, from the lowest vertex.
-struct Border {
+struct BorderLoop {
   std::vector<int> vertices;
   std::vector<double> lengths;  // lengths of the edges that leave each vertex
 };
 
-Border border_of(const mesh::Surface& surface, Execution& execution) {
+BorderLoop border_of(const mesh::Surface& surface, Execution& execution) {
   const auto half_edges = mesh::half_edges(surface, execution);
   const auto boundary = mesh::boundary_loops(surface, half_edges);
-  Border result;
+  BorderLoop result;
   for (const HalfedgeHandle h : boundary.loops[0]) {  // the hole on its left
     result.vertices.push_back(mesh::from_vertex(half_edges, h));
     result.lengths.push_back(surface.edge_lengths[mesh::edge_of(h)]);
@@ -106,7 +106,7 @@ Border border_of(const mesh::Surface& surface, Execution& execution) {
   return result;
 }
 
-Turns exterior_angles(const mesh::Surface& surface, const Border& border) {
+Turns exterior_angles(const mesh::Surface& surface, const BorderLoop& border) {
   std::vector<double> angle(surface.vertex_count, std::numbers::pi);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
@@ -206,7 +206,7 @@ std::vector<int> mean_corners(const std::vector<double>& lengths, const Turns& t
 }
 
 // The edges of the border in the plane that is nearest to its vertices, seen so that it runs counter-clockwise.
-std::vector<std::complex<double>> shadow(const mesh::Surface& surface, const Border& border) {
+std::vector<std::complex<double>> shadow(const mesh::Surface& surface, const BorderLoop& border) {
   const Eigen::Index n = static_cast<Eigen::Index>(border.vertices.size());
   Eigen::Matrix3Xd points(3, n);
   for (Eigen::Index i = 0; i < n; ++i)
@@ -228,7 +228,7 @@ std::vector<std::complex<double>> shadow(const mesh::Surface& surface, const Bor
 }
 
 // Corners of the shadow at which the surface itself also turns.
-std::vector<int> shadow_corners(const mesh::Surface& surface, const Border& border, const Turns& own) {
+std::vector<int> shadow_corners(const mesh::Surface& surface, const BorderLoop& border, const Turns& own) {
   const auto edges = shadow(surface, border);
   std::vector<double> lengths;
   Turns turns;
@@ -285,7 +285,7 @@ std::vector<Eigen::MatrixXd> certain_energies(const mesh::Discretisation& discre
 FourSides rectangle_sides(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
                           const std::vector<int>& corners, const std::vector<int>& labels) {
   const auto boundary = checked_boundary(surface, half_edges);
-  return sides_of(around(half_edges, boundary), corners, surface.vertex_count, Labels(labels));
+  return sides_between(around(half_edges, boundary), corners, surface.vertex_count, Labels(labels));
 }
 
 std::vector<int> collapsed_triangles(const mesh::Surface& surface, const FourSides& sides) {
@@ -325,7 +325,7 @@ std::vector<int> quarter_corners(const mesh::Surface& surface, Execution& execut
 }
 
 std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface, Execution& execution) {
-  const Border border = border_of(surface, execution);
+  const BorderLoop border = border_of(surface, execution);
   const Turns turns = exterior_angles(surface, border);
   std::vector<int> corners = sharp_corners(turns);
   if (corners.empty()) corners = mean_corners(border.lengths, turns, turns);

@@ -3,9 +3,9 @@
 
 #include <array>
 #include <complex>
-#include <limits>
 #include <vector>
 
+#include "base/constants.h"
 #include "base/execution.h"
 #include "mesh/surface.h"
 #include "uv/uv_map.h"
@@ -16,7 +16,7 @@ using Complex = std::complex<double>;
 using Points = std::array<Complex, 3>;
 
 struct Box {
-  double left = std::numeric_limits<double>::infinity(), low = left, right = -left, high = -left;
+  double left = kInfinity, low = left, right = -left, high = -left;
 
   void add(Complex z);
   bool meets(const Box& other) const {

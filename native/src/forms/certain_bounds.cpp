@@ -4,6 +4,8 @@
 #include <limits>
 #include <string>
 
+#include "base/constants.h"
+#include "base/double_double.h"
 #include "base/errors.h"
 #include "linear/dense.h"
 
@@ -15,8 +17,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 
 // Covers the rounding of a bound of rounding itself: three products of an n x n matrix with a vector whose terms are
 // all positive, and some factors.

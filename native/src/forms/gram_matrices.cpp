@@ -2,9 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "base/constants.h"
+#include "base/double_double.h"
 #include "linear/blas.h"
 
 namespace holomorph::forms {
@@ -23,7 +24,6 @@ using Eigen::VectorXd;
 using mesh::HalfEdges;
 
 // Unit roundoff of a double.
-constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 // Edges that are summed before their sum is added to that of a block: short sums round less.
 constexpr int kPart = 64;
 // The same where forms are many: edges of a block, whose values are there at once, of a part, and columns of a product.

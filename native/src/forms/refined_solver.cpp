@@ -1,9 +1,9 @@
 #include "forms/refined_solver.h"
 
 #include <cmath>
-#include <limits>
 #include <sstream>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "base/workers.h"
 #include "forms/laplacian.h"
@@ -72,7 +72,7 @@ void RefinedSolver::refine(RowMajorMatrix& functions, const std::vector<solver::
                            const Terms& terms, Execution& execution) {
   if (!is_stiff_) return;
   const FluxTerms fluxes = terms();
-  double error = std::numeric_limits<double>::infinity();
+  double error = kInfinity;
   for (int step = 0; step < kMostSteps && error > kEnergyGoal; ++step) {
     auto residuals = harmonic_residuals(half_edges_, weights_, fluxes, functions, execution.workers());
     for (Eigen::Index j = 0; j < functions.cols(); ++j) {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kNone = -1;
 
-int next(int side) { return side % 3 == 2 ? side - 2 : side + 1; }
+int side_after(int side) { return side % 3 == 2 ? side - 2 : side + 1; }
 int before(int side) { return side % 3 == 0 ? side + 2 : side - 1; }
 
 std::vector<int> twins(const Surface& surface) {
@@ -53,7 +53,7 @@ CornerTurns::CornerTurns(const Surface& surface,
   const std::vector<int> twin = twins(surface);
   const auto along = [&](int side) {
     const Triple& corners = surface.triangle_corners[side / 3];
-    return Eigen::Vector2d(values.row(corners[next(side) % 3]) - values.row(corners[side % 3]));
+    return Eigen::Vector2d(values.row(corners[side_after(side) % 3]) - values.row(corners[side % 3]));
   };
   across_.assign(twin.size(), 0);
   for (int s = 0; s < std::ssize(twin); ++s) {
@@ -82,7 +82,7 @@ CornerTurns::CornerTurns(const Surface& surface,
     for (at = start, turn = 0; at != kNone && (at == start || corner_[at] == kNone);) {
       corner_[at] = static_cast<signed char>(group.reduced(turn));
       turn += across_[at];
-      at = twin[at] == kNone ? kNone : next(twin[at]);
+      at = twin[at] == kNone ? kNone : side_after(twin[at]);
     }
   }
 }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "base/constants.h"
 #include "mesh/half_edges.h"
 #include "mesh/make_surface.h"
 #include "mesh/stars.h"
@@ -164,7 +164,7 @@ BorderPaths border_paths(const Surface& surface, const std::vector<char>& is_bor
   const double shortest = kShortest * *std::max_element(lengths.begin(), lengths.end());
   for (double& length : lengths) length = std::max(length, shortest);
   // Infinite lengths keep paths off the diagonals.
-  std::fill(lengths.begin() + surface.polygon_edge_count, lengths.end(), std::numeric_limits<double>::infinity());
+  std::fill(lengths.begin() + surface.polygon_edge_count, lengths.end(), kInfinity);
   std::vector<int> sources;
   for (int v = 0; v < surface.vertex_count; ++v) {
     if (is_border[v]) sources.push_back(v);

@@ -7,9 +7,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "base/constants.h"
+#include "base/double_double.h"
 #include "base/workers.h"
 #include "mesh/metric_errors.h"
 #include "mesh/triangle_geometry.h"
@@ -24,7 +25,6 @@ constexpr unsigned kMostFlipsOfAnEdge = 60;
 // Rounding of the length between the apices of a quadrilateral that is laid out, in units of rounding. An abscissa x is
 // (b^2 + (s - e)(s + e)) / 2 b: 1 of b^2 and 3 of the product, over 2 b; 1 of their sum and 1 of the quotient. A
 // height: 5.5 of the area (Kahan's order) and 1 of the quotient. Sums and differences: 1; std::hypot: 2.
-constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 constexpr double kOfBase = 0.5 * kUnit, kOfSides = 1.5 * kUnit, kOfAbscissa = 2 * kUnit, kOfHeight = 6.5 * kUnit;
 constexpr double kOfSum = kUnit, kOfLength = 2 * kUnit;
 // Many regions share out the work, large ones (in edges, a power of 2) leave little between them.

@@ -11,7 +11,7 @@ namespace {
 using std::to_string;
 
 // Prefetch distance, in triangles: their half-edges may lie anywhere.
-constexpr int kAhead = 24;
+constexpr int kEdgesAhead = 24;
 
 // Each vertex keeps the lowest half-edge that leaves it.
 void link_vertices(HalfEdges& half_edges, const Surface& surface, Workers& workers) {
@@ -51,7 +51,7 @@ void link_triangles(HalfEdges& half_edges, const Surface& surface, Workers& work
   const Sides sides(surface);
   const int count = static_cast<int>(surface.triangles.size());
   for_rows(workers, count, [&](int t) {
-    for (const int e : surface.triangle_edges[std::min(t + kAhead, count - 1)])
+    for (const int e : surface.triangle_edges[std::min(t + kEdgesAhead, count - 1)])
       half_edges.prefetch_halfedges(EdgeHandle(e));
     const Triple& vertices = surface.triangles[t];
     const HalfedgeHandle side[3] = {sides(t, 0), sides(t, 1), sides(t, 2)};
@@ -63,7 +63,7 @@ void link_triangles(HalfEdges& half_edges, const Surface& surface, Workers& work
   });
 }
 
-[[noreturn]] void refuse(int vertex) {
+[[noreturn]] void refuse_vertex(int vertex) {
   throw InvalidMesh("vertex " + to_string(vertex) + " is non-manifold: two fans of faces touch there");
 }
 
@@ -75,7 +75,7 @@ void link_boundary(HalfEdges& half_edges) {
     const HalfedgeHandle h(i);
     if (!half_edges.is_boundary(h)) continue;
     const int v = from_vertex(half_edges, h);
-    if (at[v] >= 0) refuse(v);
+    if (at[v] >= 0) refuse_vertex(v);
     at[v] = static_cast<int>(leaving.size());
     leaving.push_back(h);
     half_edges.set_halfedge_handle(VertexHandle(v), h);
@@ -125,7 +125,7 @@ void refuse_pinched_vertices(const HalfEdges& half_edges, Workers& workers) {
   for (int i = 0; i < static_cast<int>(half_edges.n_halfedges()); ++i)
     ++leaving[from_vertex(half_edges, HalfedgeHandle(i))];
   for (int v = 0; v < n; ++v) {
-    if (fan_size(half_edges, v) != leaving[v]) refuse(v);
+    if (fan_size(half_edges, v) != leaving[v]) refuse_vertex(v);
   }
 }
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/constants.h"
 #include "mesh/cut_open.h"
+#include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 
 namespace holomorph::mesh {
@@ -54,7 +56,7 @@ bool is_facet(const Place& place, double whole_area) {
 
 // What a strip may be part of, by how little it bends to it; of equals the lowest facet.
 struct Choice {
-  double bend = std::numeric_limits<double>::infinity();
+  double bend = kInfinity;
   int facet = -1;
 
   bool operator<(const Choice& other) const { return bend < other.bend || (bend == other.bend && facet < other.facet); }
@@ -89,10 +91,9 @@ using Point = std::array<double, 3>;
 constexpr double kHiding = std::numbers::pi / 3;
 
 Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point cross(const Point& a, const Point& b) {
+Point normal_of(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // Sums what is missing around vertices that edges without length join, at the lowest of them.
 void join_places(const Surface& surface, std::vector<double>& defects) {
@@ -128,7 +129,7 @@ std::vector<double> angle_defects(const Surface& surface) {
       sums[triangle[i]] += angle;
     }
   }
-  for (double& sum : sums) sum = 2 * std::numbers::pi - sum;
+  for (double& sum : sums) sum = kTwoPi - sum;
   if (has_points) join_places(surface, sums);
   return sums;
 }
@@ -162,7 +163,7 @@ std::vector<double> breaks(const Surface& surface) {
 }
 
 double angle_between(const Point& a, const Point& b) {
-  const Point normal = cross(a, b);
+  const Point normal = normal_of(a, b);
   // A product may be -0 where a vector is 0; the angle is 0 then.
   return std::atan2(std::sqrt(dot(normal, normal)), 0.0 + dot(a, b));
 }
@@ -172,7 +173,7 @@ std::vector<Point> triangle_normals(const Surface& surface) {
   const auto& points = surface.polygons.vertices;
   for (std::size_t t = 0; t < result.size(); ++t) {
     const auto& [a, b, c] = surface.triangles[t];
-    result[t] = cross(difference(points[b], points[a]), difference(points[c], points[a]));
+    result[t] = normal_of(difference(points[b], points[a]), difference(points[c], points[a]));
   }
   return result;
 }

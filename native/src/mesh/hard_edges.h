@@ -2,10 +2,10 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <numbers>
 #include <vector>
 
+#include "base/constants.h"
 #include "base/execution.h"
 #include "mesh/surface.h"
 
@@ -50,7 +50,6 @@ std::vector<char> cuts_to_tips(const Surface& surface, const std::vector<char>& 
 /// place that edges join count as one.
 /// @param is_seam #E edges whose vertices do not count; empty: none. @param most vertices where it is more do not, such
 /// as `kTip`
-double curvature(const Surface& surface, const std::vector<char>& is_seam,
-                 double most = std::numeric_limits<double>::infinity());
+double curvature(const Surface& surface, const std::vector<char>& is_seam, double most = kInfinity);
 
 }  // namespace holomorph::mesh

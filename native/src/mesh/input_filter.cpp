@@ -141,10 +141,6 @@ using Point = std::array<double, 3>;
 constexpr std::size_t kSample = 1024;  // corners
 constexpr double kNearSample = 1e-3;   // of kWild: whatever the sample, there is no gap by kWild
 
-double largest_difference(const Point& a, const Point& b) {
-  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
-}
-
 // The usable points of every n-th corner.
 template <class Index>
 std::vector<Point> corner_points(const BasicPolygons<Index>& mesh, std::size_t n) {
@@ -194,18 +190,18 @@ double size_of_bulk(const std::vector<double>& ascending) {
   return 0;
 }
 
-enum class Place : char { kUnusable, kInside, kOutside };
+enum class Where : char { kUnusable, kInside, kOutside };
 
 template <class Index>
-std::vector<Place> places(const BasicPolygons<Index>& mesh) {
+std::vector<Where> places(const BasicPolygons<Index>& mesh) {
   const auto points = corner_points(mesh, 1);
   const Point centre = median(points);
   const double size = size_of_bulk(distances(points, centre));
   if (size == 0) return {};
-  std::vector<Place> result;
+  std::vector<Where> result;
   for (const Point& p : mesh.vertices) {
     const bool is_inside = largest_difference(p, centre) <= size;
-    result.push_back(!is_usable(p) ? Place::kUnusable : is_inside ? Place::kInside : Place::kOutside);
+    result.push_back(!is_usable(p) ? Where::kUnusable : is_inside ? Where::kInside : Where::kOutside);
   }
   return result;
 }
@@ -213,29 +209,29 @@ std::vector<Place> places(const BasicPolygons<Index>& mesh) {
 template <class Index>
 std::vector<int> found(const BasicPolygons<Index>& mesh) {
   if (!may_be_wild(mesh)) return {};
-  const std::vector<Place> place = places(mesh);
+  const std::vector<Where> place = places(mesh);
   if (place.empty()) return {};
   const auto corners = [&](std::size_t f) {
     return std::span(mesh.corner_vertices)
         .subspan(mesh.face_offsets[f], mesh.face_offsets[f + 1] - mesh.face_offsets[f]);
   };
-  const auto is_at = [&](Index v, Place where) {
+  const auto is_at = [&](Index v, Where where) {
     return v >= 0 && v < static_cast<Index>(place.size()) && place[v] == where;
   };
   const std::size_t faces = mesh.face_offsets.size() - 1;
   std::vector<char> is_wild(place.size(), 0);
   for (std::size_t f = 0; f < faces; ++f) {
     const auto own = corners(f);
-    if (std::none_of(own.begin(), own.end(), [&](Index v) { return is_at(v, Place::kInside); })) continue;
+    if (std::none_of(own.begin(), own.end(), [&](Index v) { return is_at(v, Where::kInside); })) continue;
     for (const Index v : own) {
-      if (is_at(v, Place::kOutside)) is_wild[v] = 1;
+      if (is_at(v, Where::kOutside)) is_wild[v] = 1;
     }
   }
   bool has_others = false;
   for (std::size_t f = 0; f < faces && !has_others; ++f) {
     const auto own = corners(f);
     has_others = !own.empty() && std::all_of(own.begin(), own.end(), [&](Index v) {
-      return v >= 0 && v < static_cast<Index>(place.size()) && place[v] != Place::kUnusable && !is_wild[v];
+      return v >= 0 && v < static_cast<Index>(place.size()) && place[v] != Where::kUnusable && !is_wild[v];
     });
   }
   std::vector<int> result;
@@ -257,7 +253,7 @@ Polygons with_existing_vertices(BasicPolygons<Index> given) {
 }
 
 template <class Index>
-bool has_one_of(const BasicPolygons<Index>& mesh, int face, const std::vector<int>& vertices) {
+bool has_any_of(const BasicPolygons<Index>& mesh, int face, const std::vector<int>& vertices) {
   const auto end = mesh.corner_vertices.begin() + mesh.face_offsets[face + 1];
   return std::any_of(mesh.corner_vertices.begin() + mesh.face_offsets[face], end, [&](Index v) {
     return std::binary_search(vertices.begin(), vertices.end(), static_cast<int>(v));
@@ -284,7 +280,7 @@ UsableFaces usable(BasicPolygons<Index> given) {
     const FaceFault fault = fault_of_face(given, f);
     RefusedFaces& refused = by_fault[static_cast<std::size_t>(fault)];
     if (fault != FaceFault::kNone && refused.faces.empty()) refused.reason = fault_text(given, f);
-    const bool is_wild = !wild.empty() && fault == FaceFault::kNone && has_one_of(given, f, wild);
+    const bool is_wild = !wild.empty() && fault == FaceFault::kNone && has_any_of(given, f, wild);
     (is_wild ? by_fault.back().faces : fault == FaceFault::kNone ? faces : refused.faces).push_back(f);
   }
   const Polygons mesh = with_existing_vertices(std::move(given));

@@ -17,7 +17,7 @@ namespace holomorph::mesh {
 namespace {
 
 // Slack that mollification leaves each triangle, relative to the mean length of the edges that it lengthens.
-constexpr double kSlack = 1e-6;
+constexpr double kLengthSlack = 1e-6;
 
 double margin(double longest) { return std::max(kDegenerateMargin * longest, kLeastSlack); }
 
@@ -83,7 +83,7 @@ class Growth {
       const auto [a, b, c] = sides_of(t_, f);
       lack = std::max(lack, 2 * std::max({a, b, c}) - (a + b + c));
     }
-    increment = kSlack * sum / static_cast<double>(edges_.size()) + lack;
+    increment = kLengthSlack * sum / static_cast<double>(edges_.size()) + lack;
   }
 
   // Faces at these edges that become degenerate grow altogether, and so on: in the end those of a connected surface do.

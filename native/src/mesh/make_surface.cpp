@@ -27,7 +27,7 @@ constexpr int kExactSize = 64;
 // Cost of a triangle that is degenerate or inverted: above that of any other.
 constexpr double kBadTriangle = 1e12;
 // Below this ratio of area to squared size a triangle counts as degenerate.
-constexpr double kThin = 1e-10;
+constexpr double kNoTriangle = 1e-10;
 // Added for a triangle with all corners on one boundary loop: more than any but a nearly degenerate shape costs.
 constexpr double kOnOneLoop = 1e8;
 // A difference of costs that rounding of the corners to single precision may make decides nothing: where the corners of
@@ -57,7 +57,7 @@ class Polygon {
     const double squares = a.squaredNorm() + b.squaredNorm() + (b - a).squaredNorm();
     const Vector3d cross = a.cross(b);
     const double facing = cross.dot(normal_), area = cross.norm();
-    if (!(area > kThin * squares) || facing <= 0) return kBadTriangle;
+    if (!(area > kNoTriangle * squares) || facing <= 0) return kBadTriangle;
     return squares / area + (on_one_loop(i, j, k) ? kOnOneLoop : 0.0);
   }
 

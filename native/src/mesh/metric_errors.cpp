@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/constants.h"
 #include "base/double_double.h"
 #include "base/workers.h"
 #include "mesh/triangle_geometry.h"
@@ -11,7 +11,6 @@
 namespace holomorph::mesh {
 namespace {
 
-constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;  // the unit of rounding
 // Error of a length from positions: 1 of each difference, 3 of its square, 5 of their sum, half that and 1 of the root;
 // error of a given length: the caller's.
 constexpr double kOfDistance = 3.5 * kUnit, kOfGivenLength = 2.5 * kUnit;

@@ -18,8 +18,6 @@ constexpr double kNear = 1e-3;  // of the mean edge: places that are one
 // Directions along which few vertices are level.
 constexpr std::array<Point, 3> kDirections{{{0.271, 0.577, 0.770}, {0.802, -0.267, 0.534}, {-0.123, 0.696, 0.707}}};
 
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 double mean_edge(const Surface& surface) {
   double sum = 0;
   for (const double length : surface.edge_lengths) sum += length;

@@ -15,7 +15,7 @@ namespace {
 
 using std::to_string;
 
-struct Side {
+struct PolygonSide {
   int lower, higher;    // its two vertices
   int directed_corner;  // 2 x its corner, + 1 where it runs from the higher vertex to the lower one
   unsigned vertex_sum;  // sum over its polygon: equal where two polygons have the same vertices
@@ -33,7 +33,7 @@ void each_side(const Polygons& mesh, int begin, int end, const Each& each) {
     for (int c = first; c < last; ++c) sum += static_cast<unsigned>(mesh.corner_vertices[c]);
     for (int c = first; c < last; ++c) {
       const int a = mesh.corner_vertices[c], b = mesh.corner_vertices[c + 1 == last ? first : c + 1];
-      each(Side{std::min(a, b), std::max(a, b), 2 * c + (a > b ? 1 : 0), sum});
+      each(PolygonSide{std::min(a, b), std::max(a, b), 2 * c + (a > b ? 1 : 0), sum});
     }
   }
 }
@@ -52,7 +52,8 @@ class Blocks {
     const auto sides_of = [&](int i, const auto& each) {
       each_side(mesh, i * batch, std::min((i + 1) * batch, faces), each);
     };
-    workers.run(batches, [&](int, int i) { sides_of(i, [&](const Side& side) { ++place[i][side.lower / size_]; }); });
+    workers.run(batches,
+                [&](int, int i) { sides_of(i, [&](const PolygonSide& side) { ++place[i][side.lower / size_]; }); });
     int sum = 0;
     for (int block = 0; block < count(); ++block) {
       start_.push_back(sum);
@@ -60,25 +61,25 @@ class Blocks {
     }
     start_.push_back(sum);
     workers.run(batches, [&](int, int i) {
-      sides_of(i, [&](const Side& side) { sides_[place[i][side.lower / size_]++] = side; });
+      sides_of(i, [&](const PolygonSide& side) { sides_[place[i][side.lower / size_]++] = side; });
     });
   }
 
   int count() const { return (vertex_count_ + size_ - 1) / size_; }
-  const Side* begin(int block) const { return sides_.data() + start_[block]; }
-  const Side* end(int block) const { return sides_.data() + start_[block + 1]; }
+  const PolygonSide* begin(int block) const { return sides_.data() + start_[block]; }
+  const PolygonSide* end(int block) const { return sides_.data() + start_[block + 1]; }
 
   // Sorts a block by (lower, higher, corner): by counting, and then the few sides of each lower vertex.
   void sort(int block) {
     const int first_vertex = block * size_, vertices = std::min(size_, vertex_count_ - first_vertex);
-    const std::vector<Side> given(begin(block), end(block));
+    const std::vector<PolygonSide> given(begin(block), end(block));
     std::vector<int> end_of(vertices + 1, 0);
-    for (const Side& side : given) ++end_of[side.lower - first_vertex + 1];
+    for (const PolygonSide& side : given) ++end_of[side.lower - first_vertex + 1];
     std::partial_sum(end_of.begin(), end_of.end(), end_of.begin());
-    Side *const sides = sides_.data() + start_[block], *first = sides;
-    for (const Side& side : given) sides[end_of[side.lower - first_vertex]++] = side;
+    PolygonSide *const sides = sides_.data() + start_[block], *first = sides;
+    for (const PolygonSide& side : given) sides[end_of[side.lower - first_vertex]++] = side;
     for (int v = 0; v < vertices; ++v) {
-      std::sort(first, sides + end_of[v], [](const Side& a, const Side& b) {
+      std::sort(first, sides + end_of[v], [](const PolygonSide& a, const PolygonSide& b) {
         return a.higher != b.higher ? a.higher < b.higher : a.directed_corner < b.directed_corner;
       });
       first = sides + end_of[v];
@@ -88,7 +89,7 @@ class Blocks {
  private:
   static constexpr int kMost = 256;
 
-  Array<Side> sides_;
+  Array<PolygonSide> sides_;
   std::vector<int> start_;  // start of each block, and the end
   int vertex_count_, size_;
 };
@@ -96,8 +97,8 @@ class Blocks {
 // Calls each(begin, end) for the sides of each edge of a sorted block, until it answers false.
 template <class Each>
 void each_edge(const Blocks& blocks, int block, const Each& each) {
-  const Side* const last = blocks.end(block);
-  for (const Side *side = blocks.begin(block), *end = side; side != last; side = end) {
+  const PolygonSide* const last = blocks.end(block);
+  for (const PolygonSide *side = blocks.begin(block), *end = side; side != last; side = end) {
     while (end != last && end->lower == side->lower && end->higher == side->higher) ++end;
     if (!each(side, end)) return;
   }
@@ -110,24 +111,25 @@ std::vector<int> sorted_vertices(const Polygons& mesh, int face) {
   return v;
 }
 
-int face_of(const Polygons& mesh, const Side& side) {
+int polygon_of(const Polygons& mesh, const PolygonSide& side) {
   const auto& offsets = mesh.face_offsets;
   return static_cast<int>(std::upper_bound(offsets.begin(), offsets.end(), side.corner()) - offsets.begin()) - 1;
 }
 
 // Two polygons with the same vertices among those at an edge, the lower first; or {-1, -1}.
-Pair duplicates(const Polygons& mesh, const Side* begin, const Side* end) {
-  for (const Side* a = begin; a != end; ++a) {
-    for (const Side* b = a + 1; b != end; ++b) {
+Pair duplicates(const Polygons& mesh, const PolygonSide* begin, const PolygonSide* end) {
+  for (const PolygonSide* a = begin; a != end; ++a) {
+    for (const PolygonSide* b = a + 1; b != end; ++b) {
       if (a->vertex_sum != b->vertex_sum) continue;
-      const int f = face_of(mesh, *a), g = face_of(mesh, *b);
+      const int f = polygon_of(mesh, *a), g = polygon_of(mesh, *b);
       if (f != g && sorted_vertices(mesh, f) == sorted_vertices(mesh, g)) return {std::min(f, g), std::max(f, g)};
     }
   }
   return {-1, -1};
 }
 
-[[noreturn]] void refuse(const Polygons& mesh, const MeshLabels& label, const Side* begin, const Side* end) {
+[[noreturn]] void refuse(const Polygons& mesh, const MeshLabels& label, const PolygonSide* begin,
+                         const PolygonSide* end) {
   const auto [f, g] = duplicates(mesh, begin, end);
   if (f >= 0) throw InvalidMesh("faces " + label.face(f) + " and " + label.face(g) + " have the same vertices");
   throw InvalidMesh("the edge between vertices " + label.vertex(begin->lower) + " and " + label.vertex(begin->higher) +
@@ -137,14 +139,14 @@ Pair duplicates(const Polygons& mesh, const Side* begin, const Side* end) {
 // Sorts all blocks. @return the number of the first edge of each block, and of all edges
 std::vector<int> first_edges(const Polygons& mesh, Blocks& blocks, const MeshLabels& label, Workers& workers) {
   struct Bad {
-    const Side *begin = nullptr, *end = nullptr;
+    const PolygonSide *begin = nullptr, *end = nullptr;
   };
   std::vector<int> first(blocks.count() + 1, 0);
   std::vector<Bad> bad(blocks.count());
   run_throwing(workers, blocks.count(), [&](int block) {
     blocks.sort(block);
     int edges = 0;
-    each_edge(blocks, block, [&](const Side* begin, const Side* end) {
+    each_edge(blocks, block, [&](const PolygonSide* begin, const PolygonSide* end) {
       // Triangles with the same vertices share all their edges, so that edges of two sides show them.
       if (end - begin > 2 || (end - begin == 2 && duplicates(mesh, begin, end)[0] >= 0)) bad[block] = {begin, end};
       ++edges;
@@ -179,13 +181,13 @@ PolygonEdges polygon_edges(const Polygons& mesh, const MeshLabels& label, Worker
   std::vector<char> oriented(blocks.count(), 1);
   workers.run(blocks.count(), [&](int, int block) {
     int edge = first[block];
-    each_edge(blocks, block, [&](const Side* begin, const Side* end) {
+    each_edge(blocks, block, [&](const PolygonSide* begin, const PolygonSide* end) {
       const bool two = end - begin == 2;
       result.edges[edge] = {begin->lower, begin->higher};
       result.edge_sides[edge] = {begin->corner(), two ? begin[1].corner() : -1};
       // Consistently oriented polygons run along a common edge in opposite directions.
       if (two && begin[0].runs_down() == begin[1].runs_down()) oriented[block] = 0;
-      for (const Side* side = begin; side != end; ++side) result.side_edge[side->corner()] = edge;
+      for (const PolygonSide* side = begin; side != end; ++side) result.side_edge[side->corner()] = edge;
       ++edge;
       return true;
     });

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <set>
 #include <string>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "mesh/surface.h"
 #include "mesh/triangle_geometry.h"
@@ -79,12 +79,12 @@ void claim(const HalfEdges& half_edges, const Star& star, const Labels& label, s
   }
 }
 
-struct Side {
+struct TriangleSide {
   int triangle, side;
 };
 
 // The side of another triangle of the same polygon that lies on the same diagonal.
-Side across(const Surface& surface, Side s) {
+TriangleSide across(const Surface& surface, TriangleSide s) {
   const int edge = surface.triangle_edges[s.triangle][s.side], face = surface.triangle_faces[s.triangle];
   for (const int step : {-1, 1}) {
     for (int t = s.triangle + step;
@@ -119,12 +119,14 @@ std::vector<char> refuse_shared_polygons(const Surface& surface, const std::vect
 }
 
 // Flips the diagonal x -> y of triangle s: it joins the other corners of s and of the triangle across it then.
-void flip(Surface& surface, Side s) {
-  const Side o = across(surface, s);
-  const auto corner = [&](const Side& side, int i) {
+void flip(Surface& surface, TriangleSide s) {
+  const TriangleSide o = across(surface, s);
+  const auto corner = [&](const TriangleSide& side, int i) {
     return surface.triangle_corners[side.triangle][(side.side + i) % 3];
   };
-  const auto edge = [&](const Side& side, int i) { return surface.triangle_edges[side.triangle][(side.side + i) % 3]; };
+  const auto edge = [&](const TriangleSide& side, int i) {
+    return surface.triangle_edges[side.triangle][(side.side + i) % 3];
+  };
   const int e = edge(s, 0);
   const int x = corner(s, 0), y = corner(s, 1), a = corner(s, 2), b = corner(o, 2);
   const Triple first_edges{edge(s, 2), edge(o, 1), e}, second_edges{edge(o, 2), edge(s, 1), e};
@@ -205,7 +207,7 @@ std::array<int, 3> nearest_corners(const Surface& surface, const SurfacePoint& p
 std::vector<double> graph_distances(const HalfEdges& half_edges, std::span<const double> lengths,
                                     const std::vector<int>& sources) {
   using Entry = std::pair<double, int>;
-  std::vector<double> distance(half_edges.n_vertices(), std::numeric_limits<double>::infinity());
+  std::vector<double> distance(half_edges.n_vertices(), kInfinity);
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (const int v : sources) {
     distance[v] = 0;

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
+#include "base/constants.h"
 #include "base/workers.h"
 
 namespace holomorph::mesh {
@@ -24,7 +24,7 @@ constexpr double kBegin = 0.0025;  // height above the vertex where rays begin, 
 // Direction i of a Fibonacci lattice on the sphere, nearly evenly spread.
 Vector3d direction(int i) {
   const double z = 1 - (2 * i + 1.0) / kRays, radius = std::sqrt(1 - z * z);
-  const double angle = 2 * std::numbers::pi * std::numbers::phi * i;
+  const double angle = kTwoPi * std::numbers::phi * i;
   return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
 
@@ -228,7 +228,7 @@ bool meets_triangle(const Vector3d& start, const Vector3d& direction, double beg
 
 // The slab method: the ray meets the box if its intervals between the three pairs of planes have a common point.
 bool meets_box(const Vector3d& start, const Vector3d& inverse, const Eigen::AlignedBox3d& box) {
-  double from = 0, to = std::numeric_limits<double>::infinity();
+  double from = 0, to = kInfinity;
   for (int i = 0; i < 3; ++i) {
     const double a = (box.min()[i] - start[i]) * inverse[i], b = (box.max()[i] - start[i]) * inverse[i];
     from = std::max(from, std::min(a, b));

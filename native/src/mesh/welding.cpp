@@ -8,6 +8,7 @@
 
 #include "mesh/input_filter.h"
 #include "mesh/polygon_edges.h"
+#include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 
 namespace holomorph::mesh {
@@ -17,10 +18,6 @@ constexpr double kOfSide = 0x1p-20;  // of the median side: points that are near
 constexpr double kShift =
     0x1.a827999fcef32p-2;             // of the grid, irrational: decimals and floats lie on none of its borders
 constexpr double kOfPlace = 0x1p-48;  // of the largest coordinate: what sums of a few coordinates are off by
-
-double largest_difference(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
-}
 
 // @param vertices #C vertex of each corner
 Plan planned(const Polygons& mesh, const std::vector<int>& vertices) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <string>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "forms/certain_bounds.h"
 #include "linear/dense.h"
@@ -48,9 +48,9 @@ constexpr std::int64_t kLookedUp = 4;
 // Vectors of such a list: all are looked through for each row.
 constexpr std::size_t kMostListed = 20'000;
 
-class Search {
+class LatticeSearch {
  public:
-  Search(const PeriodLattice& a, const PeriodLattice& b, const SearchOptions& options, Execution& execution)
+  LatticeSearch(const PeriodLattice& a, const PeriodLattice& b, const SearchOptions& options, Execution& execution)
       : options_(options),
         steps_left_(options.steps),
         execution_(execution),
@@ -233,7 +233,7 @@ class Judge {
     const bool agree = look_near(std::max({kLeastTolerance, allowed_, needed_}));
     execution_.stage("integer matrices", 0.3, 0.6);
     if (!agree) take_nearest(a_, b_, allowed_, result_.is_complete);
-    const double found = result_.isometry ? result_.isometry->residual : std::numeric_limits<double>::infinity();
+    const double found = result_.isometry ? result_.isometry->residual : kInfinity;
     result_.tolerance = found + of_a + of_b;
     execution_.stage("margin", 0.6, 1);
     if (!result_.isometry && result_.is_complete) exclude();
@@ -301,7 +301,7 @@ LogRatios log_ratios(const MatrixXd& A, const MatrixXd& B) {
   // The eigenvalues of L^-1 A L^-T, B = L L^T, are the stationary values of x A x / x B x.
   const MatrixXd both = root.solve_lower(root.solve_lower(A).transpose());
   const Eigen::VectorXd values = linear::eigenvalues((both + both.transpose()) / 2);
-  const auto log = [](double x) { return x > 0 ? std::log(x) : -std::numeric_limits<double>::infinity(); };
+  const auto log = [](double x) { return x > 0 ? std::log(x) : -kInfinity; };
   return {log(values.minCoeff()), log(values.maxCoeff())};
 }
 
@@ -355,7 +355,7 @@ double radius(const PeriodLattice& lattice) {
 
 Isometries isometries(const PeriodLattice& a, const PeriodLattice& b, const SearchOptions& options,
                       Execution& execution) {
-  return Search(a, b, options, execution).run();
+  return LatticeSearch(a, b, options, execution).run();
 }
 
 Comparison compare(const PeriodLattice& a, const PeriodLattice& b, double allowed, double needed, std::int64_t steps,

@@ -42,12 +42,14 @@ void for_each_leaving(const mesh::HalfEdges& links, int vertex, const Visit& vis
 // UVs of a surface, continued from one triangle over its neighbours.
 
 // z -> turn z + shift
-struct Similarity {
+struct PlaneSimilarity {
   std::complex<double> turn = 1, shift = 0;
 
   std::complex<double> operator()(std::complex<double> z) const { return turn * z + shift; }
   std::complex<double> inverse(std::complex<double> z) const { return (z - shift) / turn; }
-  Similarity operator*(const Similarity& first) const { return {turn * first.turn, turn * first.shift + shift}; }
+  PlaneSimilarity operator*(const PlaneSimilarity& first) const {
+    return {turn * first.turn, turn * first.shift + shift};
+  }
 };
 
 // Each triangle has a chart, its corners in the plane. From that of a first triangle they are continued, breadth
@@ -66,15 +68,15 @@ class ContinuedCharts {
 
   /// Returns the similarity to that chart from the chart of the triangle in which the point lies, among the triangles
   /// visited.
-  Similarity chart_at(std::complex<double> z) const;
+  PlaneSimilarity chart_at(std::complex<double> z) const;
 
  private:
   struct Sheet {
     int triangle;
-    Similarity frame;
+    PlaneSimilarity frame;
   };
 
-  void add(int triangle, const Similarity& frame);
+  void add(int triangle, const PlaneSimilarity& frame);
   void grow();
 
   std::vector<Corners> corners_;
@@ -88,7 +90,7 @@ class ContinuedCharts {
 using Corners = ContinuedCharts::Corners;
 
 /// The one that takes an edge to another; a translation where one of them is a point.
-Similarity between(Complex begin, Complex end, Complex to_begin, Complex to_end) {
+PlaneSimilarity between(Complex begin, Complex end, Complex to_begin, Complex to_end) {
   if (begin == to_begin && end == to_end) return {};
   const Complex turn = (to_end - to_begin) / (end - begin);
   if (!std::isnormal(std::norm(turn))) return {1, to_begin - begin};
@@ -128,8 +130,8 @@ Complex ContinuedCharts::at(int triangle, const std::array<double, 3>& barycentr
   return sheets_[place_[triangle]].frame(sum);
 }
 
-Similarity ContinuedCharts::chart_at(Complex z) const {
-  Similarity frame;
+PlaneSimilarity ContinuedCharts::chart_at(Complex z) const {
+  PlaneSimilarity frame;
   double most = -INFINITY;
   for (const Sheet& sheet : sheets_) {
     const double inside = depth(corners_[sheet.triangle], sheet.frame.inverse(z));
@@ -141,7 +143,7 @@ Similarity ContinuedCharts::chart_at(Complex z) const {
   return frame;
 }
 
-void ContinuedCharts::add(int triangle, const Similarity& frame) {
+void ContinuedCharts::add(int triangle, const PlaneSimilarity& frame) {
   place_[triangle] = static_cast<int>(sheets_.size());
   sheets_.push_back({triangle, frame});
 }
@@ -290,7 +292,7 @@ std::vector<Complex> carried_uv(const mesh::Surface& from, const VertexImages& i
     // The polygon, in one piece over seams of the map, goes into the chart that lies under its middle.
     Complex middle = 0;
     for (auto z = begin; z != end; ++z) middle += *z / static_cast<double>(end - begin);
-    const Similarity chart = continued.chart_at(middle);
+    const PlaneSimilarity chart = continued.chart_at(middle);
     std::transform(begin, end, begin, [&](Complex z) { return chart.inverse(z); });
   }
   return carried;

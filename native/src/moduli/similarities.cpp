@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/constants.h"
 #include "mesh/metric_errors.h"
 #include "mesh/triangle_geometry.h"
 
@@ -34,7 +35,7 @@ int next(int side, int step) { return 3 * (side / 3) + (side % 3 + 3 + step) % 3
 
 // A length is off by its rounding, and by that of the positions that it comes from: half a unit in the last place of
 // each coordinate.
-constexpr double kOfCoordinates = std::numeric_limits<double>::epsilon() / 2;
+constexpr double kOfCoordinates = kUnit;
 // The quotient of two lengths, in the same parts.
 constexpr double kOfQuotient = 2 * std::numeric_limits<double>::epsilon();
 // Errors count twice in the dilatation of a triangle, whose computation makes errors of that size.
@@ -52,9 +53,9 @@ std::vector<double> errors_of_lengths(const Surface& surface) {
   return errors;
 }
 
-class Search {
+class SimilaritySearch {
  public:
-  Search(const Surface& a, const Surface& b, int sign, Execution& execution)
+  SimilaritySearch(const Surface& a, const Surface& b, int sign, Execution& execution)
       : a_(a),
         b_(b),
         sign_(sign),
@@ -120,7 +121,7 @@ class Search {
   // How much the errors of its sides may change the dilatation of a triangle.
   static double error(const std::array<mesh::RoundedLength, 3>& sides) {
     const double growth = mesh::energy_growth(sides);
-    return growth < 1 ? growth : std::numeric_limits<double>::infinity();
+    return growth < 1 ? growth : kInfinity;
   }
 
   // log(s1 / s2) of the map between two triangles. With the first sides along the real axis it is [[s, p], [0, q]], and
@@ -141,7 +142,7 @@ class Search {
     std::vector<char> is_image(b_.triangles.size(), 0);
     std::vector<int> queue;
     largest_ = largest_error_ = least_ = 0;
-    most_ = std::numeric_limits<double>::infinity();
+    most_ = kInfinity;
     const auto reach = [&](int side, int image) {
       int& known = images[side / 3];
       const int first = next(image, -sign_ * (side % 3));
@@ -178,7 +179,7 @@ class Search {
 }  // namespace
 
 std::optional<Similarity> similarity(const Surface& a, const Surface& b, int sign, Execution& execution) {
-  return Search(a, b, sign, execution).run();
+  return SimilaritySearch(a, b, sign, execution).run();
 }
 
 }  // namespace holomorph::moduli

@@ -14,7 +14,7 @@ namespace {
 // still too large, another round of iterations begins. The last round is one that leaves more than this part of it.
 constexpr double kLeastGain = 0.5;
 // The recurrence goes on to this part of the goal, so that the true residual reaches the goal in the first round.
-constexpr double kSafety = 0.9;
+constexpr double kOfGoal = 0.9;
 constexpr double kStep = 8;  // operations for each unknown and right-hand side
 
 template <int K>
@@ -116,7 +116,7 @@ class Gradients {
 
   void iterate(Values<K> norm, const Values<K>& norm_b, int& iterations) {
     using Both = Eigen::Array<double, 2 * K, 1>;
-    const Values<K> goal = kSafety * (options_.residual * norm_b);
+    const Values<K> goal = kOfGoal * (options_.residual * norm_b);
     Values<K> rz = sum_over_rows(workers_, n_, zero(), [&](int i, Values<K>& sum) {
       p_[i] = inverse_[i] * r_[i];
       sum += r_[i] * p_[i];

@@ -6,7 +6,6 @@
 namespace holomorph::tiles {
 namespace {
 
-constexpr int kNone = -1;
 constexpr double kSide = 10;  // operations: of a side of a piece in a step
 
 // Joins the pieces of each tile across sides that are not walls, and reads off the outlines.

@@ -10,9 +10,8 @@
 namespace holomorph::tiles {
 namespace {
 
-constexpr double kRounding = 4;  // bound of the rounding of where a row meets a side, in integer coordinates
-constexpr int kNone = -1;
-constexpr double kBytes = 200;            // a place, with what callers know of it
+constexpr double kRounding = 4;           // bound of the rounding of where a row meets a side, in integer coordinates
+constexpr double kBytesOfPlace = 200;     // a place, with what callers know of it
 constexpr double kRow = 30, kPlace = 60;  // operations: of a row in a triangle, of a place
 constexpr double kAtOnce = 1e5;           // operations between two looks at whether the search is cancelled
 
@@ -214,7 +213,7 @@ Places places(const mesh::Surface& surface, const TileCoordinates& coordinates, 
   // Counted before memory is taken.
   const double most = sum_over_rows(execution.workers(), count, 0.0,
                                     [&](int t, double& sum) { sum += tiles_in(coordinates, t) + search.rows(t); });
-  refuse_too_many(surface, most, kBytes, "rows and places in tiles");
+  refuse_too_many(surface, most, kBytesOfPlace, "rows and places in tiles");
   TaskProgress progress(execution, (kRow + kPlace) * most / kAtOnce / 2, kAtOnce);
   std::vector<Places> parts(chunks);
   run_throwing(execution.workers(), chunks, [&](int thread, int chunk) {

@@ -8,8 +8,7 @@
 namespace holomorph::tiles {
 namespace {
 
-constexpr int kNone = -1;
-constexpr double kBytes = 500;  // a piece, with the cell that it is joined to
+constexpr double kBytesOfPiece = 500;  // a piece, with the cell that it is joined to
 
 // The pieces of one chunk of triangles: inside nodes and segments are named ~0, ~1 ...
 struct Part {
@@ -85,7 +84,7 @@ class Cutting {
 };
 
 // Appends the pieces of a chunk, whose inside nodes and segments follow those before; then `segments` is known.
-void append(Pieces& all, const Part& part, const Cutting& cutting, int& segments) {
+void append_part(Pieces& all, const Part& part, const Cutting& cutting, int& segments) {
   const int first_node = static_cast<int>(all.nodes.triangles.size()), first_side = all.offsets.back();
   const auto named = [](int name, int first) { return name < 0 ? first + ~name : name; };
   for (const TriangleCut::Inside& node : part.nodes) all.nodes.push_back(node.triangle, cutting.weights(node));
@@ -135,7 +134,7 @@ Pieces pieces(const mesh::Surface& surface, const TileCoordinates& coordinates, 
   const double inside =
       sum_over_rows(execution.workers(), count, 0.0, [&](int t, double& sum) { sum += tiles_in(coordinates, t); });
   const double most = inside + edge_nodes.offsets.back() + count;
-  refuse_too_many(surface, most, kBytes, "pieces of tiles");
+  refuse_too_many(surface, most, kBytesOfPiece, "pieces of tiles");
   TaskProgress progress(execution, most / kReportedPieces / 2, kReportedPieces * kPieceWork);
   std::vector<Part> parts(chunks);
   run_throwing(execution.workers(), chunks, [&](int thread, int chunk) {
@@ -148,7 +147,7 @@ Pieces pieces(const mesh::Surface& surface, const TileCoordinates& coordinates, 
   int segments = edge_nodes.offsets.back() + static_cast<int>(surface.edges.size());
   for (const Part& part : parts) {
     execution.report(1);
-    append(all, part, cutting, segments);
+    append_part(all, part, cutting, segments);
   }
   all.is_wall.assign(segments, 0);
   std::size_t side = 0;

@@ -49,7 +49,7 @@ HeightImage::Pixels widened(const HeightImage::Pixels& pixels) {
 
 double middle(Index i, Index count) { return (static_cast<double>(i) + 0.5) / static_cast<double>(count); }
 
-constexpr int kNone = -1, kReported = 4096;
+constexpr int kReported = 4096;
 constexpr double kLeastTolerance = 1e-4;
 
 // Side i runs from corner i to corner i + 1.

@@ -18,7 +18,6 @@ using Eigen::Vector2d;
 constexpr double kWhole = 1e-3;  // of a tile: nearer jumps count as whole tiles, also of UVs in single precision
 constexpr double kMostBytes = 1e9, kMostPerVertex = 1e5;
 constexpr double kMostThings = 1e8;  // so that indices, also of what is made of them, are far below 2^31
-constexpr int kNone = -1;
 
 Vector2d whole(const Vector2d& jump) { return jump.array().round(); }
 bool is_whole(const Vector2d& jump) { return (jump - whole(jump)).cwiseAbs().maxCoeff() <= kWhole; }
@@ -30,7 +29,7 @@ std::string text(const Vector2d& jump) {
   return out.str();
 }
 
-std::string between(const mesh::Surface& surface, int edge) {
+std::string vertices_of(const mesh::Surface& surface, int edge) {
   const auto& [a, b] = surface.edges[edge];
   return "the edge between the vertices " + std::to_string(a) + " and " + std::to_string(b);
 }
@@ -112,7 +111,7 @@ class Making {
       // Stars of poles are apart from each other and from the boundary. Elsewhere a jump by parts of a tile is an
       // error.
       if (result_.is_pole[a] + result_.is_pole[b] > (is_border ? 0 : 1))
-        refuse("its UVs jump by a fraction of a tile at " + between(surface_, e));
+        refuse("its UVs jump by a fraction of a tile at " + vertices_of(surface_, e));
     }
   }
 
@@ -152,7 +151,7 @@ class Making {
         if (first[e] != kNone) {
           const auto [start, end] = translations(first[e] / 3, first[e] % 3, t, i);
           if (start != end)
-            refuse("its UVs jump by different numbers of tiles at the two ends of " + between(surface_, e) +
+            refuse("its UVs jump by different numbers of tiles at the two ends of " + vertices_of(surface_, e) +
                    ", which differ by " + text(v[j] < v[i] ? Vector2d(end - start) : Vector2d(start - end)));
         }
         first[e] = 3 * t + i;

@@ -18,6 +18,8 @@ namespace holomorph::tiles {
 
 using Point = std::array<double, 2>;
 
+inline constexpr int kNone = -1;
+
 /// Largest coordinate. Differences of coordinates are exact, and products are exact in twice the precision.
 inline constexpr double kLargestCoordinate = 0x1p50;
 

@@ -9,7 +9,7 @@
 namespace holomorph::tiles {
 namespace {
 
-constexpr double kBytes = 150;  // a node, here and where it lies
+constexpr double kBytesOfNode = 150;  // a node, here and where it lies
 
 // The lines of one coordinate that a side crosses, one after the other.
 class Crossings {
@@ -70,7 +70,7 @@ std::vector<int> first_sides(const mesh::Surface& surface) {
   return sides;
 }
 
-double middle(std::int64_t code) { return static_cast<double>(code) / 2; }
+double place_of(std::int64_t code) { return static_cast<double>(code) / 2; }
 
 }  // namespace
 
@@ -100,7 +100,7 @@ EdgeNodes edge_nodes(const mesh::Surface& surface, const TileCoordinates& coordi
     const auto [a, b] = ends(e);
     if (is_crossed(e)) sum += Crossings(a[0], b[0], unit).count() + Crossings(a[1], b[1], unit).count();
   });
-  refuse_too_many(surface, most, kBytes, "places where edges cross lines of tiles");
+  refuse_too_many(surface, most, kBytesOfNode, "places where edges cross lines of tiles");
   std::vector<EdgeNodes> parts(chunks);
   run_throwing(execution.workers(), chunks, [&](int chunk) {
     auto& part = parts[chunk];
@@ -195,7 +195,8 @@ void TriangleCut::append_side(int t, int i, Piece& ring) const {
       const double code = power(x, 0) * static_cast<double>(here[0]) + power(x, 1) * static_cast<double>(here[1]);
       corner.code[x] = static_cast<std::int64_t>(code) + 2 * translation[x];
       // On a line the coordinate is exact, not that of the rounded place on the edge.
-      corner.at[x] = is_line(corner.code[x]) ? middle(corner.code[x]) : place[x] + static_cast<double>(translation[x]);
+      corner.at[x] =
+          is_line(corner.code[x]) ? place_of(corner.code[x]) : place[x] + static_cast<double>(translation[x]);
     }
     ring.push_back(corner);
   }
@@ -272,7 +273,7 @@ PieceCorner TriangleCut::crossing(std::int64_t column, std::int64_t row) {
   const Code code{column, row};
   const auto [found, is_new] = crossings_.try_emplace(code, ~static_cast<int>(nodes_.size()));
   if (is_new) nodes_.push_back({triangle_, code});
-  return {found->second, kRow, code, {middle(column), middle(row)}};
+  return {found->second, kRow, code, {place_of(column), place_of(row)}};
 }
 
 // Names the segments on rows. A row has the same corners on both sides, so its segments are known by their middles.

@@ -13,14 +13,14 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr int kSteps = 40;                          // at most, in Newton's method
-constexpr double kDone = 1e-8;                      // rms |mu| that counts as 0
-constexpr double kStride = 0.03;                    // longest step, in square roots of the area: J changes with faces
-constexpr double kShortest = 1e-9;                  // shortest step, in the same unit
-constexpr double kDamping = 1e-6;                   // of J J^T, relative to its mean diagonal entry
-constexpr double kGain = 1e-9;                      // least relative fall of the squared defect in an exchange
-constexpr std::size_t kRounds = 12, kPairs = 2400;  // at most, that exchange pairs; and pairs in all rounds
-constexpr std::size_t kAround = 36;                 // vertices around a pole that it may be exchanged for
+constexpr int kNewtonSteps = 40;         // at most, in Newton's method
+constexpr double kDone = 1e-8;           // rms |mu| that counts as 0
+constexpr double kStride = 0.03;         // longest step, in square roots of the area: J changes with faces
+constexpr double kShortestMove = 1e-9;   // shortest step, in the same unit
+constexpr double kNewtonDamping = 1e-6;  // of J J^T, relative to its mean diagonal entry
+constexpr double kExchangeGain = 1e-9;   // least relative fall of the squared defect in an exchange
+constexpr std::size_t kExchangeRounds = 12, kPairs = 2400;  // at most, that exchange pairs; and pairs in all rounds
+constexpr std::size_t kExchangeAround = 36;                 // vertices around a pole that it may be exchanged for
 
 // The poles while they move over the faces. `held_` marks those that are fixed at a vertex.
 class Moving {
@@ -99,7 +99,7 @@ class Moving {
     for (std::size_t i = 0; i < held_.size(); ++i) {
       if (!held_[i]) free.push_back(i);
     }
-    for (int step = 0; step < kSteps && !free.empty(); ++step) {
+    for (int step = 0; step < kNewtonSteps && !free.empty(); ++step) {
       options_.tick();
       const VectorXcd e = defect();
       if (e.norm() < kDone) return;
@@ -114,11 +114,11 @@ class Moving {
       VectorXd residual(2 * g);
       residual << e.real(), e.imag();
       MatrixXd JJ = J * J.transpose();
-      JJ.diagonal().array() += kDamping * JJ.trace() / static_cast<double>(2 * g);
+      JJ.diagonal().array() += kNewtonDamping * JJ.trace() / static_cast<double>(2 * g);
       const VectorXd dz = -J.transpose() * linear::solve_symmetric(JJ, residual);
       double longest = 0;
       for (Index f = 0; f < dz.size(); f += 2) longest = std::max(longest, std::hypot(dz[f], dz[f + 1]));
-      if (longest < kShortest * root) return;
+      if (longest < kShortestMove * root) return;
       const double shrink = std::min(1.0, kStride * root / longest);
       for (std::size_t f = 0; f < free.size(); ++f)
         move(free[f], shrink * Complex(dz[2 * static_cast<Index>(f)], dz[2 * static_cast<Index>(f) + 1]));
@@ -171,7 +171,7 @@ class Moving {
   std::vector<Neighbour> around(std::size_t i) {
     std::vector<Neighbour> list;
     const bool stays = !options_.held.empty() && options_.held[i];
-    for (const int v : mesh::vertices_around(basis_.half_edges(), poles_.vertices[i], stays ? 0 : kAround)) {
+    for (const int v : mesh::vertices_around(basis_.half_edges(), poles_.vertices[i], stays ? 0 : kExchangeAround)) {
       if (!basis_.is_place(v, options_.allowed)) continue;
       VectorXd part = nearest_representative(inversion_.abel_jacobi.at(v), poles_.parts[i]);
       const VectorXcd effect = effect_of(i, part);
@@ -183,7 +183,7 @@ class Moving {
   void exchange_pairs() {  // two poles have many more values than one, some of which nearly cancel the defect
     std::vector<std::vector<Neighbour>> near(held_.size());
     const std::size_t pairs = near.size() * near.size() / 2 + 1;
-    for (std::size_t round = 0; round < std::clamp<std::size_t>(kPairs / pairs, 1, kRounds); ++round) {
+    for (std::size_t round = 0; round < std::clamp<std::size_t>(kPairs / pairs, 1, kExchangeRounds); ++round) {
       for (std::size_t i = 0; i < near.size(); ++i) {
         if (near[i].empty() || near[i].front().vertex != poles_.vertices[i]) near[i] = around(i);
       }
@@ -200,7 +200,7 @@ class Moving {
     const VectorXcd now = defect();
     const VectorXcd rest = now - effect_of(i, poles_.parts[i]) - effect_of(j, poles_.parts[j]);
     const std::vector<int> others = corners_but(i, j);
-    double least = now.squaredNorm() * (1 - kGain);
+    double least = now.squaredNorm() * (1 - kExchangeGain);
     const Neighbour *first = nullptr, *second = nullptr;
     for (const Neighbour& a : near[i]) {
       if (!mesh::are_apart(a.corners, others)) continue;

@@ -17,7 +17,7 @@ constexpr double kFollowing = 0.1;  // the same limit for poles that follow anot
 // times handles exceed kMuch, they move for fewer roundings, in proportion.
 constexpr int kMostHandles = 40;
 constexpr std::size_t kMuch = 600;
-constexpr double kUsualSteps = 3000;
+constexpr double kUsualCandidates = 3000;
 // Best roundings for each limit, which are measured again with the poles at their new places.
 constexpr std::ptrdiff_t kWeighed = 3;
 
@@ -150,7 +150,7 @@ Candidate best_candidate(const Placement& placement, const RoundingProblem& prob
   const MatrixXcd metric = moves ? beltrami_metric(problem) : MatrixXcd();
   const int ways = moves ? static_cast<int>(std::size(kMoves)) : 1;
   std::vector<Candidate> candidates((moves ? movable(list.size(), lifted, basis) : list.size()) * ways);
-  TaskProgress watch(execution, kUsualSteps, static_cast<double>(problem.Z.size()));
+  TaskProgress watch(execution, kUsualCandidates, static_cast<double>(problem.Z.size()));
   run_throwing(execution.workers(), static_cast<int>(candidates.size()), [&](int thread, int i) {
     watch(thread);
     Candidate& c = candidates[i];

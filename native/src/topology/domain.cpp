@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <utility>
+
+#include "base/constants.h"
 
 namespace holomorph::topology {
 namespace {
@@ -86,7 +87,7 @@ class ShortestPathTree {
         domain_(domain),
         queue_(mean(surface.edge_lengths) / kBucketsPerEdge) {
     const std::size_t n = half_edges.n_vertices();
-    distance.assign(n, std::numeric_limits<double>::infinity());
+    distance.assign(n, kInfinity);
     domain_.to_parent_vertex.assign(n, HalfedgeHandle());
     domain_.vertex_rank.resize(n);
     settled_.assign(n, 0);

@@ -1,10 +1,10 @@
 #include "topology/fundamental_domain.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "base/constants.h"
 #include "topology/domain.h"
 
 namespace holomorph::topology {
@@ -94,7 +94,7 @@ class DualTree {
 
   // Length of the loop that an edge closes in T; diagonals are crossed in any case.
   double loop_length(int e) const {
-    if (surface_.is_diagonal(e)) return std::numeric_limits<double>::infinity();
+    if (surface_.is_diagonal(e)) return kInfinity;
     const auto [a, b] = surface_.edges[e];
     return distance_[a] + distance_[b] + surface_.edge_lengths[e];
   }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "base/constants.h"
 
 namespace holomorph::uv {
 namespace {
@@ -97,7 +98,7 @@ Distortion distortion(const mesh::Polygons& polygons, const Eigen::Ref<const UvA
     result.density[f] = std::isnan(octaves) ? 0 : std::clamp(octaves, -kMostOctaves, kMostOctaves);
   }
   result.mean_angle = all > 0 ? sum / all : 1;
-  result.size_range = low > 0 ? std::sqrt(high / low) : std::numeric_limits<double>::infinity();
+  result.size_range = low > 0 ? std::sqrt(high / low) : kInfinity;
   result.upright_part = all_steep > 0 ? upright / all_steep : 1;
   return result;
 }
@@ -115,7 +116,7 @@ Densities drawn_densities(const mesh::Polygons& polygons, const Eigen::Ref<const
 
 double cost_of_squares(const Squares& squares) {
   const double ratio = squares.density_ratio;
-  if (!(ratio >= 1) || std::isinf(ratio)) return std::numeric_limits<double>::infinity();
+  if (!(ratio >= 1) || std::isinf(ratio)) return kInfinity;
   return std::log(ratio) + kShear * (squares.mean_angle - 1) + kFlipped * squares.flipped_part +
          cost_of_overlaps(squares.overlapping_part);
 }

@@ -10,6 +10,7 @@
 #include "base/errors.h"
 #include "base/task_progress.h"
 #include "linear/dense.h"
+#include "uv/appearance.h"
 
 namespace holomorph::uv {
 
@@ -98,11 +99,11 @@ constexpr int kStarts = 16, kThinning = 4, kRoughSteps = 40, kKept = 6, kFineSte
 // From this many forms on, the numbers of starts and of steps fall in inverse proportion, as the cost of each grows
 // faster.
 constexpr int kManyForms = 64, kFewestSteps = 20;
-constexpr double kUsualValues = 1000;  // evaluations of the objective in all descents
-constexpr double kOperations = 4;      // for each entry of a matrix
+constexpr double kUsualValues = 1000;     // evaluations of the objective in all descents
+constexpr double kBalanceOperations = 4;  // for each entry of a matrix
 // The judgement adds to the logarithm of the 95 % over 5 % quantile: the mean of s1 / s2, cut off here, and a price of
 // flipped triangles.
-constexpr double kMostSheared = 20, kFlipped = 20;
+constexpr double kMostSheared = 20;
 constexpr double kSame = 1e-3;  // relative difference of the ends of two descents that are one
 const std::vector<double> kRoughFloors = {1.0, 0.1}, kFineFloors = {0.01, 1e-3, kDensityFloor};
 
@@ -182,7 +183,7 @@ VectorXcd lowest_variance(const mesh::Surface& surface, const std::vector<int>& 
   const MatrixXcd fields = surface.intrinsic() ? MatrixXcd() : even_fields(surface, triangles, count);
   std::vector<Candidate> candidates = starts(parts.M, fields, kind, count);
   // Descents are independent, so the result does not depend on the number of threads.
-  TaskProgress watch(execution, kUsualValues, static_cast<double>(parts.M.size()) * kOperations);
+  TaskProgress watch(execution, kUsualValues, static_cast<double>(parts.M.size()) * kBalanceOperations);
   run_throwing(execution.workers(), static_cast<int>(candidates.size()), [&](int thread, int i) {
     descend(thinned, kind, candidates[i].x, kRoughFloors, kRoughSteps, [&] { watch(thread); });
     candidates[i].value = judgement(thinned, as_complex(candidates[i].x, kind));

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 
+#include "base/constants.h"
 #include "base/workers.h"
 #include "mesh/triangle_geometry.h"
 
@@ -18,7 +18,7 @@ constexpr double kRowsPerEdge = 8, kMostRows = 4096;           // numbers of lin
 constexpr double kMostCrossings = 5e5, kMostPerEdge = 64;      // of all lines with edges, about: the larger of the two
 constexpr std::size_t kAtOnce = 500'000, kAtOncePerEdge = 16;  // of these that are there at the same time
 
-constexpr double kOperations = 2;  // to follow a crossing; how they are sorted is not counted
+constexpr double kMeasureOperations = 2;  // to follow a crossing; how they are sorted is not counted
 
 struct Crossing {
   double x;
@@ -34,7 +34,7 @@ class Rows {
  public:
   // @pre the curve has a height
   explicit Rows(const std::vector<Ends>& curve) : curve_(curve) {
-    double high = -std::numeric_limits<double>::infinity(), sum = 0;
+    double high = -kInfinity, sum = 0;
     for (const auto& [start, end] : curve) {
       low_ = std::min(low_, start.imag());
       high = std::max(high, start.imag());
@@ -70,7 +70,7 @@ class Rows {
     std::vector<std::size_t> next(end - begin + 1, 0);
     for (int k = begin; k < end; ++k) next[k - begin + 1] = next[k - begin] + crossings_[k];
     std::vector<Crossing> found(next.back());
-    Execution::count(kOperations * static_cast<double>(found.size()));
+    Execution::count(kMeasureOperations * static_cast<double>(found.size()));
     const std::vector<std::size_t> first(next);
     for (const Ends& edge : curve_) {
       const auto [from, to] = rows_of(edge);
@@ -107,7 +107,7 @@ class Rows {
   }
 
   const std::vector<Ends>& curve_;
-  double low_ = std::numeric_limits<double>::infinity(), extent_ = 0, height_ = 0;
+  double low_ = kInfinity, extent_ = 0, height_ = 0;
   int count_ = 0;
   std::vector<int> crossings_;  // of each row
 };
@@ -125,7 +125,7 @@ bool has_height(const std::vector<Ends>& curve) {
 using Complex = std::complex<double>;
 
 // Largest s2 / s1 of a collapsed triangle: rounding.
-constexpr double kCollapsed = 1e-12;
+constexpr double kNoArea = 1e-12;
 
 // The map of a triangle is A z + B conj(z).
 struct Derivatives {
@@ -157,7 +157,7 @@ struct Sums {
 void set_densities(Quality& quality, Workers& workers) {
   const Distribution densities(quality.area, quality.weights, workers);
   const double low = densities.quantile(kLow);
-  quality.density_ratio = low > 0 ? densities.quantile(kHigh) / low : std::numeric_limits<double>::infinity();
+  quality.density_ratio = low > 0 ? densities.quantile(kHigh) / low : kInfinity;
   quality.median_density = densities.quantile(0.5);
 }
 
@@ -262,8 +262,8 @@ Quality quality(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& u
     const double size_A = std::sqrt(std::norm(A)), size_B = std::sqrt(std::norm(B));
     // s1 = |A| + |B|, s2 = | |A| - |B| |; the map is flipped where |B| is larger.
     const double larger = size_A + size_B, smaller = std::abs(size_A - size_B);
-    if (!(smaller > kCollapsed * larger) || !std::isfinite(larger)) {
-      result.angle[t] = std::numeric_limits<double>::infinity();
+    if (!(smaller > kNoArea * larger) || !std::isfinite(larger)) {
+      result.angle[t] = kInfinity;
       sum += {areas[t], areas[t] * kMostAngle, 0, areas[t]};
       return;
     }

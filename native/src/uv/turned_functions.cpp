@@ -28,7 +28,7 @@ void add(Function& a, double factor, const Function& b, Workers& workers) {
   for_rows(workers, static_cast<int>(a.size()), [&](int v) { a[v] += factor * b[v]; });
 }
 
-constexpr double kRounding = 1e-9;  // of a turn by quarters
+constexpr double kRoundedTurn = 1e-9;  // of a turn by quarters
 
 // Calls body(edge, a, b, turn) once for each edge: a function at vertex a is that at b, times the turn.
 template <class Body>
@@ -131,7 +131,7 @@ std::unique_ptr<Cover> Cover::of(const mesh::Surface& surface, const Kept& kept)
   bool are_quarters = true;
   for_edges(surface, kept, [&](int edge, int a, int b, Complex turn) {
     const auto re = static_cast<int>(std::lround(turn.real())), im = static_cast<int>(std::lround(turn.imag()));
-    are_quarters &= std::abs(turn - Complex(re, im)) < kRounding;
+    are_quarters &= std::abs(turn - Complex(re, im)) < kRoundedTurn;
     for (const int part : {0, 1}) {
       // u_a = re u_b - im v_b, v_a = im u_b + re v_b, and one of both is 0.
       const int other = re != 0 ? part : 1 - part, by = re != 0 ? re : part == 0 ? -im : im;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <unordered_map>
 
+#include "base/constants.h"
 #include "base/workers.h"
 #include "mesh/surface.h"
 
@@ -124,8 +124,6 @@ UvArray real_and_imaginary(const Eigen::VectorXcd& p) {
   columns << p.real(), p.imag();
   return columns;
 }
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Extent {
   double low[2] = {kInfinity, kInfinity}, high[2] = {-kInfinity, -kInfinity}, area = 0;

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/constants.h"
 #include "mesh/half_edges.h"
 
 namespace holomorph::uv {
@@ -83,7 +84,7 @@ Image image(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, c
       sum += angle;
     }
     // The signed angles of an upright triangle sum to pi, those of a flipped one to -pi, one turn less.
-    const auto turns = static_cast<int>(std::lround((std::numbers::pi - sum) / (2 * std::numbers::pi)));
+    const auto turns = static_cast<int>(std::lround((std::numbers::pi - sum) / kTwoPi));
     if (turns != 0) result.flipped.emplace_back(t, turns);
   }
   return result;
@@ -102,8 +103,7 @@ void count_in_stars(const std::vector<int>& star, const std::vector<char>& is_po
     turn += angle[v] - std::numbers::pi;
     if (angle[v] > angle[largest]) largest = v;
   }
-  for (const auto& [pole, link] : found)
-    index[link.second] = static_cast<int>(std::lround(link.first / (2 * std::numbers::pi)));
+  for (const auto& [pole, link] : found) index[link.second] = static_cast<int>(std::lround(link.first / kTwoPi));
 }
 
 std::vector<char> boundary_vertices(const mesh::Surface& surface) {

@@ -455,3 +455,37 @@ def test_sources_are_in_the_bibliography():
         for doi in re.findall(r"doi:(10\.\d+/[^\s(),;]*(?:\(\d+\)[^\s(),;]*)?)", path.read_text(encoding="utf-8"))
     }
     assert cited and cited <= known, cited - known
+
+
+# What begins a line at the scope of a namespace: a type, a function, or constants.
+TYPE_OR_FUNCTION = re.compile(
+    r"^(?=[A-Za-z\[])(?:(?:struct|class|enum class|enum) (\w+)(?: final)?\b(?=[^;(]*[{:])"
+    r"|(?!using|namespace|return|template|typedef|struct|class|enum)(?:\[\[\w+\]\] )*[\w:<>,&*\[\] ]*?[ &*>](\w+)\()",
+    re.MULTILINE,
+)
+CONSTANTS = re.compile(r"^(?:inline )?(?:constexpr|const) (?![^=;{]*\()([^;]*);", re.MULTILINE)
+UNNAMED = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.MULTILINE | re.DOTALL)
+
+
+def names_of(text):
+    text = re.sub(r"//[^\n]*", "", text)
+    names = {one or other for one, other in TYPE_OR_FUNCTION.findall(text)}
+    return names.union(
+        *(re.findall(r"\b(k[A-Z]\w*)(?=\s*(?:\[[^\]]*\])?\s*[={])", one) for one in CONSTANTS.findall(text))
+    )
+
+
+def test_files_of_a_room_can_be_compiled_as_one():
+    """A name in an unnamed namespace hides the same name of a header, without a word, from the files that follow."""
+    shared = {room: set() for room in ROOM_BELOW}
+    hidden = {room: [] for room in ROOM_BELOW}
+    for path in sorted(NATIVE.rglob("*.[hc]*")):
+        room, text = path.relative_to(NATIVE).parts[0], path.read_text()
+        if path.suffix == ".h":
+            shared[room] |= names_of(text)
+        else:
+            hidden[room] += names_of("".join(UNNAMED.findall(text)))
+    assert sum(map(len, hidden.values())) > 1000  # or the patterns find nothing
+    for room, names in hidden.items():
+        twice = {name for name in names if names.count(name) > 1 or name in shared[room] | shared["base"]}
+        assert not twice, (room, twice)

@@ -43,20 +43,19 @@ TEST_F(IslandsOfADome, AreLookedForAsFarAsTheyMayBeWorthIt) {
   const std::uint64_t most = counted([&] { wanted = island_map(*part_->surface, {kEvenness}, execution_); });
   ASSERT_TRUE(wanted);
   EXPECT_GT(wanted->seams.size(), 0u);
-  EXPECT_FALSE(search().best(0.5 * wanted->cost(), IslandSearch::kInfinity, execution_));
-  EXPECT_FALSE(search().best(IslandSearch::kInfinity, 0, execution_));
+  EXPECT_FALSE(search().best(0.5 * wanted->cost(), kInfinity, execution_));
+  EXPECT_FALSE(search().best(kInfinity, 0, execution_));
   IslandSearch own = search();
-  const std::uint64_t bounded =
-      counted([&] { EXPECT_TRUE(own.best(2 * wanted->cost(), IslandSearch::kInfinity, execution_)); });
+  const std::uint64_t bounded = counted([&] { EXPECT_TRUE(own.best(2 * wanted->cost(), kInfinity, execution_)); });
   EXPECT_LE(bounded, most);
-  EXPECT_EQ(counted([&] { own.best(1.5 * wanted->cost(), IslandSearch::kInfinity, execution_); }), 0u);
+  EXPECT_EQ(counted([&] { own.best(1.5 * wanted->cost(), kInfinity, execution_); }), 0u);
 }
 
 TEST_F(IslandsOfADome, OfASearchAtOnceLeaveTheWeightsAsTheyWere) {
   const auto wanted = island_map(*part_->surface, {kEvenness}, execution_);
   IslandSearch own = search();
   EXPECT_FALSE(own.at_once(0.1, execution_));
-  EXPECT_EQ(own.best(IslandSearch::kInfinity, IslandSearch::kInfinity, execution_)->cost(), wanted->cost());
+  EXPECT_EQ(own.best(kInfinity, kInfinity, execution_)->cost(), wanted->cost());
 }
 
 TEST_F(IslandsOfADome, BetweenChosenCutsLieForThemselves) {

@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 
 // Reduced bases differ with the order of the exchanges.
 constexpr double kAsGood = 1.2;
-constexpr double kRounding = 1e-9;
+constexpr double kOffLattice = 1e-9;
 
 double log_volume(const MatrixXd& basis) {
   return Eigen::HouseholderQR<MatrixXd>(basis).matrixQR().diagonal().array().abs().log().sum();
@@ -73,7 +73,7 @@ TEST_F(Fplll, BasesAreAsGood) {
     ASSERT_EQ(theirs.cols(), ours.cols());
     EXPECT_LE(mean_defect(ours), kAsGood * mean_defect(theirs));
     EXPECT_LE(ours.colwise().norm().minCoeff(), kAsGood * theirs.colwise().norm().minCoeff());
-    EXPECT_NEAR(log_volume(ours), log_volume(theirs), kRounding * log_volume(theirs));
+    EXPECT_NEAR(log_volume(ours), log_volume(theirs), kOffLattice * log_volume(theirs));
   }
 }
 

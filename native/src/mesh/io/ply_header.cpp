@@ -102,13 +102,13 @@ Encoding encoding_named(std::string_view name, const HeaderLines& lines) {
   if (name == "ascii") return Encoding::text;
   if (name == "binary_little_endian") return Encoding::little_endian;
   if (name == "binary_big_endian") return Encoding::big_endian;
-  lines.fail("the PLY format " + quoted(name) + " is not known");
+  lines.fail("the PLY format " + in_quotes(name) + " is not known");
 }
 
 Type type_named(std::string_view name, const HeaderLines& lines) {
   for (const auto& entry : type_names)
     if (entry.name == name) return entry.type;
-  lines.fail("the property type " + quoted(name) + " is not known");
+  lines.fail("the property type " + in_quotes(name) + " is not known");
 }
 
 Property property_of(const std::vector<std::string_view>& words, const HeaderLines& lines) {
@@ -138,7 +138,7 @@ void declare(const std::vector<std::string_view>& words, const FileText& file, c
     if (elements.empty()) lines.fail("a property is declared before any element");
     elements.back().properties.push_back(property_of(words, lines));
   } else {
-    lines.fail("a declaration is expected, but found " + quoted(words[0]));
+    lines.fail("a declaration is expected, but found " + in_quotes(words[0]));
   }
 }
 

@@ -82,7 +82,7 @@ constexpr std::size_t shortest_word = 2;    // bytes of "0\n"
 
 /// The keyword is optional: a file may start with its counts. Prefixes announce values after the position (ST, C, N).
 /// @return notes of what the vertices have that is not read
-std::vector<std::string> read_header(const FileText& file, Scanner& scan) {
+std::vector<std::string> read_off_header(const FileText& file, Scanner& scan) {
   Scanner ahead = scan;
   if (ahead.at_end()) file.fail("the file is empty");
   auto keyword = ahead.word();
@@ -94,7 +94,7 @@ std::vector<std::string> read_header(const FileText& file, Scanner& scan) {
     ahead.fail("the vertices of the file do not have 3 dimensions (" + std::string(whole) + ")");
   const auto counts = keyword.substr(std::min<std::size_t>(keyword.size(), 3));  // OFF8 6 0, of old archives
   if (!keyword.starts_with("OFF") || counts.find_first_not_of("0123456789") != std::string_view::npos)
-    ahead.fail("an OFF file starts with OFF, but found " + quoted(whole));
+    ahead.fail("an OFF file starts with OFF, but found " + in_quotes(whole));
   Scanner after = ahead;
   if (after.word() == "BINARY") after.fail("binary OFF files cannot be read; save the mesh as text");
   scan.at_end();  // past what precedes the keyword
@@ -105,7 +105,7 @@ std::vector<std::string> read_header(const FileText& file, Scanner& scan) {
   return notes;
 }
 
-void read_vertices(Scanner& scan, std::int64_t count, GivenPolygons& mesh) {
+void read_off_vertices(Scanner& scan, std::int64_t count, GivenPolygons& mesh) {
   mesh.vertices.resize(static_cast<std::size_t>(count));
   for (std::int64_t i = 0; i < count; ++i) {
     const auto name = [&] { return "vertex " + std::to_string(i) + " of " + std::to_string(count); };
@@ -136,7 +136,7 @@ void read_faces(Scanner& scan, std::int64_t count, GivenPolygons& mesh) {
 GivenPolygons read_off(const FileText& file) {
   file.check_encoding();
   Scanner scan(file, Comments::after_hash);
-  auto notes = read_header(file, scan);
+  auto notes = read_off_header(file, scan);
   const auto vertices =
       scan.count(scan.word_on_any_line("the number of vertices"), "the number of vertices", shortest_vertex);
   const auto faces = scan.count(scan.word_on_any_line("the number of faces"), "the number of faces", shortest_word);
@@ -144,7 +144,7 @@ GivenPolygons read_off(const FileText& file) {
 
   GivenPolygons mesh;
   mesh.file.notes = std::move(notes);
-  read_vertices(scan, vertices, mesh);
+  read_off_vertices(scan, vertices, mesh);
   read_faces(scan, faces, mesh);
   if (!scan.at_end())
     scan.fail("the file goes on after the last of the " + std::to_string(faces) + " faces it announced");

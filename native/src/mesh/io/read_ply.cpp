@@ -27,7 +27,7 @@ class TextValues {
   static std::size_t least_bytes(const Property&) { return 2; }  // a digit and a separator
   std::size_t bytes_left() const { return scan_.bytes_left(); }
 
-  void enter(const Element& element) { what_ = "a value of element " + quoted(element.name); }
+  void enter(const Element& element) { what_ = "a value of element " + in_quotes(element.name); }
   void enter_row(std::int64_t row) {
     if (scan_.at_end()) scan_.fail("the file ends where " + what_ + " is expected, in row " + std::to_string(row));
   }
@@ -118,8 +118,8 @@ class BinaryValues {
     return "the file has " + std::to_string(bytes_left()) + " bytes after the last element that its header announces";
   }
   [[noreturn]] void fail(const std::string& reason) const {
-    throw InvalidMesh(file_.name + ", byte " + std::to_string(position_) + ", element " + quoted(element_->name) + " " +
-                      std::to_string(row_) + ": " + reason);
+    throw InvalidMesh(file_.name + ", byte " + std::to_string(position_) + ", element " + in_quotes(element_->name) +
+                      " " + std::to_string(row_) + ": " + reason);
   }
 
  private:
@@ -144,9 +144,10 @@ class BinaryValues {
 template <class Values>
 std::int64_t list_length(Values& values, const Property& list) {
   const auto length = values.integer(list.count_type);
-  if (length < 0) values.fail("the list " + quoted(list.name) + " has the negative length " + std::to_string(length));
+  if (length < 0)
+    values.fail("the list " + in_quotes(list.name) + " has the negative length " + std::to_string(length));
   if (static_cast<std::uint64_t>(length) > values.bytes_left() / values.least_bytes({{}, list.type, Type::none}) + 1)
-    values.fail("the list " + quoted(list.name) + " has length " + std::to_string(length) +
+    values.fail("the list " + in_quotes(list.name) + " has length " + std::to_string(length) +
                 ", more than the rest of the file can hold");
   return length;
 }
@@ -161,7 +162,7 @@ void check_count(Values& values, const Element& element) {
   std::size_t row_bytes = 0;
   for (const auto& property : element.properties) row_bytes += values.least_bytes(property);
   if (row_bytes > 0 && static_cast<std::uint64_t>(element.count) > values.bytes_left() / row_bytes + 1)
-    values.fail(std::to_string(element.count) + " elements " + quoted(element.name) +
+    values.fail(std::to_string(element.count) + " elements " + in_quotes(element.name) +
                 " are announced, more than the file can hold");
 }
 
@@ -194,7 +195,7 @@ std::size_t polygon_list(const Element& element, const FileText& file) {
     const auto& property = element.properties[p];
     if (property.is_list() && (property.name == "vertex_indices" || property.name == "vertex_index")) return p;
   }
-  file.fail("the element " + quoted(element.name) + " has no list 'vertex_indices'");
+  file.fail("the element " + in_quotes(element.name) + " has no list 'vertex_indices'");
 }
 
 template <class Values>

@@ -185,7 +185,7 @@ class TextTriangles {
   }
 
   [[noreturn]] void fail_expecting(const std::string& what, std::string_view word) const {
-    scan_.fail(what + " is expected, but found " + quoted(word));
+    scan_.fail(what + " is expected, but found " + in_quotes(word));
   }
   void expect(std::string_view wanted) {
     const auto word = scan_.word_on_any_line(wanted);

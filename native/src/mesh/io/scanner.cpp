@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/constants.h"
 #include "base/errors.h"
 
 namespace holomorph::mesh {
@@ -42,7 +43,7 @@ double beyond_range(std::string_view word) {
   const auto exponent = word.find_first_of("eE");
   const bool tiny = exponent != std::string_view::npos ? word.substr(exponent + 1).starts_with('-')
                                                        : word.find_first_of("123456789") > word.find('.');
-  const double magnitude = tiny ? 0.0 : std::numeric_limits<double>::infinity();
+  const double magnitude = tiny ? 0.0 : kInfinity;
   return word.starts_with('-') ? -magnitude : magnitude;
 }
 
@@ -63,7 +64,7 @@ void FileText::check_encoding() const {
 
 void FileText::fail(std::string_view reason) const { throw InvalidMesh(name + ": " + std::string(reason)); }
 
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
   std::string text = "'";
   for (const char c : word.substr(0, longest_quotation)) text += (c >= ' ' && c <= '~') ? c : '?';
   if (word.size() > longest_quotation) text += "...";
@@ -134,8 +135,7 @@ double Scanner::real(std::string_view word, std::string_view what) const {
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const std::string_view rest(stop, digits.data() + digits.size());
   if (rest.starts_with('#') && digits.find(".#") != std::string_view::npos)
-    return rest.starts_with("#INF") ? std::copysign(std::numeric_limits<double>::infinity(), value)
-                                    : std::numeric_limits<double>::quiet_NaN();
+    return rest.starts_with("#INF") ? std::copysign(kInfinity, value) : std::numeric_limits<double>::quiet_NaN();
   if (rest.size() > 1 && (rest[0] == 'd' || rest[0] == 'D')) {
     std::string in_c(digits);
     in_c[digits.size() - rest.size()] = 'e';
@@ -144,7 +144,7 @@ double Scanner::real(std::string_view word, std::string_view what) const {
   const bool whole = stop == digits.data() + digits.size();
   if (whole && error == std::errc::result_out_of_range) return beyond_range(digits);
   if (!whole || error != std::errc{})
-    fail(std::string(what) + " is expected, but found " + quoted(word) +
+    fail(std::string(what) + " is expected, but found " + in_quotes(word) +
          (word.find(',') == std::string_view::npos ? "" : ": numbers need decimal points"));
   return value;
 }
@@ -154,7 +154,7 @@ std::int64_t Scanner::integer(std::string_view word, std::string_view what) cons
   std::int64_t value = 0;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (stop != digits.data() + digits.size() || error != std::errc{})
-    fail(std::string(what) + " is expected, but found " + quoted(word));
+    fail(std::string(what) + " is expected, but found " + in_quotes(word));
   return value;
 }
 

@@ -90,6 +90,6 @@ class Scanner {
 };
 
 /// The word in quotation marks for a message, cut to a readable length, unprintable bytes as question marks.
-std::string quoted(std::string_view word);
+std::string in_quotes(std::string_view word);
 
 }  // namespace holomorph::mesh

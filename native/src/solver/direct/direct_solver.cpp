@@ -15,7 +15,7 @@ constexpr Eigen::Index kBlockEntries = 500'000;
 // Right-hand sides of a block, at least: with one at a time the factor is read for each of them.
 constexpr Eigen::Index kLeastBlock = 4;
 // Refinement goes on to this residual while it helps; the promise is kResidual.
-constexpr double kGoal = 1e-13;
+constexpr double kRefined = 1e-13;
 constexpr int kMostRefinements = 4;
 
 // L without the row and column of one vertex, lower triangle: positive definite for a connected surface.
@@ -104,7 +104,7 @@ class DirectSolver final : public LaplaceSolver {
     Refined x{apply(B), {}, 0};
     x.R = residuals(x.X, B);
     x.size = relative(x.R, B);
-    for (int step = 0; x.size > kGoal && step < kMostRefinements; ++step) {
+    for (int step = 0; x.size > kRefined && step < kMostRefinements; ++step) {
       execution.report(done_);
       Refined better{x.X + apply(x.R), {}, 0};
       better.R = residuals(better.X, B);

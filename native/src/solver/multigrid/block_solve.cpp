@@ -6,6 +6,18 @@
 #include "solver/laplace_solver.h"
 
 namespace holomorph::solver {
+
+// Two sums: the first and second moments of right-hand sides, or r.z and z.A z.
+template <int K>
+struct Moments {
+  Sums<K> first = Sums<K>::Zero(), second = Sums<K>::Zero();
+  Moments& operator+=(const Moments& other) {
+    first += other.first;
+    second += other.second;
+    return *this;
+  }
+};
+
 namespace {
 
 // The reduction of the residual that each solve in single precision is asked for.
@@ -23,17 +35,6 @@ template <int K>
 EIGEN_STRONG_INLINE Block<K> scaled_step(const RightHandSides<K>& b, int i, const Sums<K>& r) {
   return jacobi_step<K>(b.omega[i], r.template cast<float>(), b.natural.template cast<float>());
 }
-
-// Two sums: the first and second moments of right-hand sides, or r.z and z.A z.
-template <int K>
-struct Moments {
-  Sums<K> first = Sums<K>::Zero(), second = Sums<K>::Zero();
-  Moments& operator+=(const Moments& other) {
-    first += other.first;
-    second += other.second;
-    return *this;
-  }
-};
 
 // The sum in the order of the chunks.
 template <class Sum>

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <random>
 #include <tuple>
 #include <utility>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "mesh/triangle_tree.h"
 #include "tiling/cones/scale_form.h"
@@ -20,7 +20,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kCandidates = 250;  // that cones may be at
 constexpr int kMostMoves = 400;
 constexpr double kHandles = 0.3;           // weight of the square of what handles turn beyond whole k-th turns
@@ -224,7 +223,7 @@ class Search {
       for (Eigen::Index i = 0; i < count; ++i) {
         const double p = price_part * prices_[i];
         const auto change = [&](int by) {
-          if (!may_be(i, by) || (n_[i] == 0 && crowds[i] > 0)) return kInfinite;
+          if (!may_be(i, by) || (n_[i] == 0 && crowds[i] > 0)) return kInfinity;
           return 2 * by * r[i] + diagonal[i] + p * (price_of(n_[i] + by) - price_of(n_[i]));
         };
         up[i] = change(1);

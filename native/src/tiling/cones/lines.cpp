@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "solver/direct/sparse_cholesky.h"
 #include "tiling/cones/scale_form.h"
@@ -11,15 +11,13 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr double kLong = 0.5;      // roots of the area: chains that are shorter are details
-constexpr double kMostTurned = 3;  // full turns of a boundary loop, to and fro: others are jagged
-constexpr double kHeld = 1e6;      // weight of a frame at a line: it does not give way
-constexpr double kPull = 0.1;      // with which the field is pulled level
+constexpr double kLong = 0.5;         // roots of the area: chains that are shorter are details
+constexpr double kMostTurned = 3;     // full turns of a boundary loop, to and fro: others are jagged
+constexpr double kPullOfField = 0.1;  // with which the field is pulled level
 // By which a cone's price is multiplied: pairs of cones also turn the field away from lines, which the cost does not
 // say.
 constexpr double kPrice = 12;
-constexpr double kRegular = 1e-9;  // weight of a frame anywhere
+constexpr double kRegularFrame = 1e-9;  // weight of a frame anywhere
 
 // A forest of vertices.
 class Chains {
@@ -107,7 +105,7 @@ void straighten(const Net& net, const Eigen::VectorXd& u, int k, const std::vect
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(count, 1);
   for (int t = 0; t < count; ++t) {
-    const double weight = is_held[t] ? kHeld : kRegular;
+    const double weight = is_held[t] ? kHeld : kRegularFrame;
     entries.emplace_back(t, t, weight);
     b(t, 0) = weight * angle[t];
   }
@@ -169,7 +167,8 @@ Frames lined_frames(const mesh::Surface& surface, const Net& net, const ConeOpti
   execution.report(0);
   const int k = options.k;
   const Along along = options.along.value_or(Along{{0, 0, 1}});
-  const std::vector<Complex> field = level_field(net, surface.polygons.vertices, k, along, options.along ? kPull : 0.0);
+  const std::vector<Complex> field =
+      level_field(net, surface.polygons.vertices, k, along, options.along ? kPullOfField : 0.0);
   const std::vector<int> found = cones_of_field(net, field, k);
   Frames frames;
   frames.angle.resize(net.triangle_count());

@@ -10,9 +10,9 @@ namespace holomorph::tiling {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kMostCotangent = 25;  // half of one: thinner angles would be stiff in the Laplacian
-constexpr double kLeastSlack = 1e-5;   // of the mean length: by how much two sides of a triangle exceed the third
-constexpr double kLeastWeight = 1e-4;  // of an edge: any positive weights make a connection with the wanted cones
+constexpr double kMostCotangent = 25;      // half of one: thinner angles would be stiff in the Laplacian
+constexpr double kLeastSlack = 1e-5;       // of the mean length: by how much two sides of a triangle exceed the third
+constexpr double kLeastEdgeWeight = 1e-4;  // of an edge: any positive weights make a connection with the wanted cones
 
 // What all lengths are raised by, so that each triangle has angles (Sharp & Crane 2020, doi:10.1111/cgf.14069): 0 where
 // none is degenerate.
@@ -129,7 +129,7 @@ Net::Net(const mesh::Surface& surface, const std::vector<int>& lines)
       weight[side] += std::min(cotangent[back], kMostCotangent);
       transport[side] = std::arg(-along[back] * std::conj(along[side]));
     }
-    weight[side] = std::max(weight[side], kLeastWeight);
+    weight[side] = std::max(weight[side], kLeastEdgeWeight);
     vertex_area[v] += area[side / 3] / 3;
     defect[v] -= angle_at(*this, side);
     if (first[v] < 0 || back < 0) first[v] = side;

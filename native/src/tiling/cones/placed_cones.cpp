@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "base/constants.h"
 #include "tiling/cones/upright.h"
 #include "uv/evening.h"
 
@@ -22,7 +22,7 @@ constexpr double kHopeless = 2e-3, kHopelessCones = 0.1;
 // nobody sees it.
 constexpr int kManyTriangles = 15'000;
 constexpr double kUnseen = 0.08, kUnseenFlipped = 1e-3;
-constexpr int kMantissa = 23;  // of single precision, less the sign
+constexpr int kSingleMantissa = 23;  // of single precision, less the sign
 
 // The UVs of polygons' corners in coordinates of the lattice, exact on a grid of powers of two: turns of the lattice
 // are integer matrices there, and translations whole.
@@ -43,7 +43,7 @@ uv::UvArray corner_uv(const mesh::Surface& surface, const Net& net, const Turned
   };
   write(0);
   const double most = uv.cwiseAbs().maxCoeff();
-  write(std::exp2(std::ceil(std::log2(std::max(most, 1.0))) - kMantissa));
+  write(std::exp2(std::ceil(std::log2(std::max(most, 1.0))) - kSingleMantissa));
   return uv;
 }
 
@@ -76,7 +76,7 @@ WrongArea wrong_area(const mesh::Surface& surface, const Net& net, const uv::UvA
     const Complex to_next = at(corner + 1) - at(corner), to_last = at(corner + 2) - at(corner);
     const Complex ratio = std::conj(to_next) * to_last;
     if (!(ratio.imag() > 0)) is_flipped[side / 3] = 1;
-    turned[net.tail[side]] += std::arg(ratio) / (2 * std::numbers::pi);
+    turned[net.tail[side]] += std::arg(ratio) / kTwoPi;
   }
   WrongArea result;
   for (int t = 0; t < net.triangle_count(); ++t) {
@@ -90,7 +90,7 @@ WrongArea wrong_area(const mesh::Surface& surface, const Net& net, const uv::UvA
   return result;
 }
 
-std::vector<Jump> jumps_of(const mesh::Surface& surface, const Net& net, const Frames& frames, const TurnedSpace& space,
+std::vector<Jump> jumps_at(const mesh::Surface& surface, const Net& net, const Frames& frames, const TurnedSpace& space,
                            const linear::IntegerVector& z) {
   std::vector<Jump> jumps;
   for (int side = 0; side < net.side_count(); ++side) {
@@ -203,7 +203,7 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, const E
     const WrongArea wrong = wrong_area(*surface_, net_, laid, space_.lattice.k, missing_);
     const std::pair<double, double> bad{wrong.whole, strain(laid, evenness, execution)};
     if (bad < best.bad) {
-      const std::vector<Jump> jumps = jumps_of(*surface_, net_, frames_, space_, nearest[i].z);
+      const std::vector<Jump> jumps = jumps_at(*surface_, net_, frames_, space_, nearest[i].z);
       best = {{std::move(uv), coordinates(y, nearest[i]), jumps, {}, {}}, bad};
       best.is_last = wrong.whole <= kUnseen * tile && wrong.flipped <= kUnseenFlipped * tile;
     }

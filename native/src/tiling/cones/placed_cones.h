@@ -3,12 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/constants.h"
 #include "base/execution.h"
 #include "tiling/cones/cones.h"
 #include "tiling/cones/lines.h"
@@ -62,8 +62,8 @@ class PlacedCones {
 
   struct Judged {
     TurnedMap map;
-    std::pair<double, double> bad{std::numeric_limits<double>::infinity(), 0};  ///< wrong area, strain
-    bool is_last = false;                                                       ///< no other cones are to be tried
+    std::pair<double, double> bad{kInfinity, 0};  ///< wrong area, strain
+    bool is_last = false;                         ///< no other cones are to be tried
   };
   /// The best of the maps by the nearest whole numbers.
   Judged best_map(double tiles, double evenness, const Effort& effort, Execution& execution) const;

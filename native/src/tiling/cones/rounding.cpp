@@ -16,11 +16,11 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using SparseComplex = Eigen::SparseMatrix<Complex, Eigen::RowMajor>;
 
-constexpr double kLeastScale = 0.05;  // of e^u, below which triangles weigh no more
-constexpr double kRegular = 1e-10;    // of the mean diagonal: vertices of triangles without area alone
+constexpr double kLeastScale = 0.05;      // of e^u, below which triangles weigh no more
+constexpr double kRegularMatrix = 1e-10;  // of the mean diagonal: vertices of triangles without area alone
 constexpr int kSizes = 9, kAngles = 25;
 constexpr Eigen::Index kColumns = 32;                   // solved for at once
-constexpr double kSpread = 0.12;                        // of ln size, to either side
+constexpr double kSpreadOfRest = 0.12;                  // of ln size, to either side
 constexpr double kOtherSize = 1;                        // price of (ln size)^2: larger sizes alone would round better
 constexpr double kTurned = 6 * std::numbers::pi / 180;  // radians from level, to either side
 
@@ -111,7 +111,7 @@ NearestMap::NearestMap(const Net& net, const Frames& frames, const TurnedSpace& 
         QQ(it.col(), other.col()) += c * std::conj(it.value()) * other.value();
     }
   }
-  for (int i = 0; i < count; ++i) entries.emplace_back(i, i, kRegular * trace / std::max(count, 1));
+  for (int i = 0; i < count; ++i) entries.emplace_back(i, i, kRegularMatrix * trace / std::max(count, 1));
   Eigen::SparseMatrix<double> lower(count, count);
   lower.setFromTriplets(entries.begin(), entries.end());
   execution.report(1);
@@ -162,7 +162,7 @@ std::vector<NearestMap::Rounded> NearestMap::rounded(Complex factor, const Matri
   std::vector<Rounded> found;
   const int angles = turns_ ? kAngles : 1;
   for (int i = 0; i < kSizes; ++i) {
-    const double ln_size = kSpread * (2.0 * i / (kSizes - 1) - 1), size = std::exp(ln_size);
+    const double ln_size = kSpreadOfRest * (2.0 * i / (kSizes - 1) - 1), size = std::exp(ln_size);
     for (int j = 0; j < angles; ++j) {
       const double turned = turns_ ? kTurned * (2.0 * j / (kAngles - 1) - 1) : 0;
       const Complex f = factor * std::polar(size, turned);

@@ -3,9 +3,10 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <utility>
+
+#include "base/constants.h"
+#include "mesh/triangle_geometry.h"
 
 namespace holomorph::tiling {
 
@@ -14,20 +15,18 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t kExtrema = 80;  // at most
 
+using mesh::dot;
 using Point = std::array<double, 3>;
 
-constexpr double kScale = 40;               // of the weight, relative to the lowest modes of the field
-constexpr double kLeast = 0.1, kMost = 10;  // weights of edges between the limits, for their inverses
-constexpr double kHeld = 1e6;               // weight of the direction at a line: it does not give way
-constexpr double kCancels = 0.3;            // of a side's length: two lines of a triangle that are no k-th turn apart
-constexpr double kUpright = 0.7;            // cosine
-constexpr int kPulls = 8;                   // steps, each with the same matrix
+constexpr double kScale = 40;                           // of the weight, relative to the lowest modes of the field
+constexpr double kLeastWeight = 0.1, kMostWeight = 10;  // weights of edges between the limits, for their inverses
+constexpr double kCancels = 0.3;  // of a side's length: two lines of a triangle that are no k-th turn apart
+constexpr double kUpright = 0.7;  // cosine
+constexpr int kPulls = 8;         // steps, each with the same matrix
 
 Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // The field at the triangles beside lines, 0 at others: of two lines that disagree the longer one counts.
 std::vector<Complex> beside_lines(const Net& net, const std::vector<Point>& points, int k, const Along& along) {
@@ -55,13 +54,13 @@ std::vector<Complex> beside_lines(const Net& net, const std::vector<Point>& poin
 
 // The angle, less the nearest multiple of a k-th turn.
 double within_turn(double angle, int k) {
-  const double unit = 2 * std::numbers::pi / k;
+  const double unit = kTwoPi / k;
   return angle - unit * std::round(angle / unit);
 }
 
-constexpr double kRegular = 1e-9;  // of the mean diagonal, added to a Laplacian that has constants in its kernel
+constexpr double kRegularLaplacian =
+    1e-9;  // of the mean diagonal, added to a Laplacian that has constants in its kernel
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr std::size_t kSolvedAtOnce = 64;  // candidates
 
 }  // namespace
@@ -81,7 +80,7 @@ double ConePlaces::squared_distance(int v, int w) const {
 
 std::vector<int> ConePlaces::spread(const Eigen::VectorXd& function, int count) const {
   std::vector<int> spread;
-  std::vector<double> highest(net_.vertex_count(), -kInfinite), lowest(net_.vertex_count(), kInfinite);
+  std::vector<double> highest(net_.vertex_count(), -kInfinity), lowest(net_.vertex_count(), kInfinity);
   for (int side = 0; side < net_.side_count(); ++side) {
     const double value = function[net_.head[side]];
     highest[net_.tail[side]] = std::max(highest[net_.tail[side]], value);
@@ -96,7 +95,7 @@ std::vector<int> ConePlaces::spread(const Eigen::VectorXd& function, int count) 
   for (int v = 0; v < net_.vertex_count(); ++v) {
     if (is_hole(v)) spread.push_back(v);
   }
-  std::vector<double> distance(net_.vertex_count(), kInfinite);
+  std::vector<double> distance(net_.vertex_count(), kInfinity);
   int farthest = -1;
   for (int v = 0; v < net_.vertex_count() && farthest < 0; ++v) {
     if (is_place(v)) farthest = v;
@@ -152,7 +151,7 @@ Level level_directions(const Net& net, const std::vector<Point>& points, const A
   return result;
 }
 
-double dual_weight(const Net& net, int side) { return 1 / std::clamp(net.weight[side], kLeast, kMost); }
+double dual_weight(const Net& net, int side) { return 1 / std::clamp(net.weight[side], kLeastWeight, kMostWeight); }
 
 std::vector<Complex> level_field(const Net& net, const std::vector<Point>& points, int k, const Along& along,
                                  double weight) {
@@ -262,8 +261,7 @@ std::vector<int> cones_of_field(const Net& net, const std::vector<Complex>& fiel
   std::vector<double> sums(net.vertex_count(), 0.0);
   for (int v = 0; v < net.vertex_count(); ++v) sums[net.hole[v] < 0 ? v : net.hole[v]] += turned[v];
   std::vector<int> missing(net.vertex_count(), 0);
-  for (int v = 0; v < net.vertex_count(); ++v)
-    missing[v] = static_cast<int>(std::lround(k * sums[v] / (2 * std::numbers::pi)));
+  for (int v = 0; v < net.vertex_count(); ++v) missing[v] = static_cast<int>(std::lround(k * sums[v] / kTwoPi));
   return missing;
 }
 
@@ -276,7 +274,7 @@ Laplace::Laplace(const Net& net) : net_(net), unknown_(net.vertex_count(), -1) {
   area_ = Eigen::VectorXd::Zero(count);
   for (int v = 0; v < net.vertex_count(); ++v) area_[unknown_[v]] += net.vertex_area[v] / net.whole_area;
   std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < count; ++i) entries.emplace_back(i, i, kRegular);
+  for (int i = 0; i < count; ++i) entries.emplace_back(i, i, kRegularLaplacian);
   for (int side = 0; side < net.side_count(); ++side) {
     if (net.twin[side] > side) continue;  // each edge once
     const int a = unknown_[net.tail[side]], b = unknown_[net.head[side]];

@@ -13,6 +13,8 @@
 
 namespace holomorph::tiling {
 
+inline constexpr double kHeld = 1e6;  ///< weight of the direction at a line: it does not give way
+
 /// The Laplacian of a net, on which each hole is one vertex. Solves L u = b: u is one number along each boundary loop,
 /// and its mean over the surface is 0. What b has in sum is taken away evenly. It is natural at no boundary: nothing is
 /// asked of the direction there.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "linear/dense.h"
 #include "linear/reduction.h"
@@ -15,7 +15,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kExact = 1e-3;  // k-th turns by which a turn may miss a whole one: rounding
 
 // What is carried across a side beside the transport: the harmonic part of the connection, so that the handles turn by

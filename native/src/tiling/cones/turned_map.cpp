@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "base/execution.h"
 #include "tiling/cones/net.h"
@@ -19,7 +19,7 @@ namespace {
 
 // Cones that are chosen, and what is then missing of the holes.
 
-constexpr double kGain = 1e-9;  // of the cost: less is rounding
+constexpr double kCheaper = 1e-9;  // of the cost: less is rounding
 
 // The chosen cones, and k-th turns at the holes with which the integral of u^2 is least, see scale_form.h: together
 // they are k times the Euler characteristic of the surface with its holes filled.
@@ -34,7 +34,7 @@ std::vector<int> with_holes(const Net& net, int k, const std::vector<int>& chose
   for (int v = 0; v < net.vertex_count(); ++v) {
     if (net.first[v] >= 0) defect += net.defect[v];
   }
-  const int whole = static_cast<int>(std::lround(defect / (2 * std::numbers::pi / k)));
+  const int whole = static_cast<int>(std::lround(defect / (kTwoPi / k)));
   const int left = whole - std::accumulate(chosen.begin(), chosen.end(), 0);
   std::vector<Eigen::Index> holes;
   Eigen::VectorXd n(std::ssize(places));
@@ -53,7 +53,7 @@ std::vector<int> with_holes(const Net& net, int k, const std::vector<int>& chose
   form.take(places, [&] { execution.report(0); });
   for (bool gains = true; gains;) {
     const Eigen::VectorXd slope = form.Q() * n - form.b();
-    double gained = kGain;
+    double gained = kCheaper;
     Eigen::Index to = 0, from = 0;
     for (const Eigen::Index i : holes) {
       for (const Eigen::Index j : holes) {

@@ -4,17 +4,15 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "tiling/cones/transitions.h"
 
 namespace holomorph::tiling {
 namespace {
-
-constexpr double kTwoPi = 2 * std::numbers::pi;
 
 // Numbers the segments of the cut between nodes: cones, ends, branchings and boundary vertices.
 void find_segments(const Net& net, const Frames& frames, const std::vector<int>& missing, TurnedSpace& space,
@@ -69,7 +67,7 @@ void add(Combination& combination, int segment, const Turn& multiple) {
   if (!is_new) place->second += multiple;
 }
 
-Eigen::Matrix2d inverse(const Turn& turn) {
+Eigen::Matrix2d inverse_of(const Turn& turn) {
   const double determinant = turn(0, 0) * turn(1, 1) - turn(0, 1) * turn(1, 0);
   Eigen::Matrix2d result;
   result << turn(1, 1), -turn(0, 1), -turn(1, 0), turn(0, 0);
@@ -99,7 +97,8 @@ struct Corners {
   std::vector<int> turn;             // #V, by what it is turned then; 0 on the boundary
   // Where a cone is, a centre of the turns by itself, seen from a corner that is turned.
   Multiples at_cone(const Turn& turned, int part, int v, const TurnLattice& lattice) const {
-    return row_of(kRows[part] * turned.cast<double>() * inverse(Turn::Identity() - lattice.power(turn[v])), closing[v]);
+    return row_of(kRows[part] * turned.cast<double>() * inverse_of(Turn::Identity() - lattice.power(turn[v])),
+                  closing[v]);
   }
 };
 

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "mesh/components.h"
 #include "mesh/hard_edges.h"
@@ -28,10 +29,10 @@ mesh::Mirror mirror_of(const mesh::Surface& surface, uv::Up up) {
 Complex at(const uv::UvArray& uv, int corner) { return {uv(corner, 0), uv(corner, 1)}; }
 
 constexpr double kMostLost = 0.5;    // part of the area: nothing is left to look at
-constexpr double kHard = 40;         // degrees by which a surface bends at an edge that is to be a line
+constexpr double kHardDegrees = 40;  // degrees by which a surface bends at an edge that is to be a line
 constexpr double kMostEnds = 0.02;   // of chains, for each of their edges
 constexpr double kMostOfNet = 1.75;  // edges for each vertex that they meet: a cube has 1.5, all edges of a mesh 2 or 3
-constexpr double kUsualTiles = 400, kTilesPerHandle = 64;  // by default, at least
+constexpr double kUsualTiles = 400, kTurnedTilesPerHandle = 64;  // by default, at least
 
 // How often each vertex is met.
 std::unordered_map<int, int> meetings(const std::vector<mesh::Pair>& ends) {
@@ -92,7 +93,7 @@ std::vector<Jump> jumps_of(const mesh::Surface& surface, const uv::UvArray& uv, 
     const auto& [low, high, is_there] = sides[e];
     if (!is_there[0] || !is_there[1]) continue;
     const double angle = std::arg((high[1] - low[1]) * std::conj(high[0] - low[0]));
-    const int turn = static_cast<int>(std::nearbyint(angle * turns / (2 * std::numbers::pi)));
+    const int turn = static_cast<int>(std::nearbyint(angle * turns / kTwoPi));
     Jump jump{e, (turn % turns + turns) % turns, {}};
     const Complex by = low[1] - kQuarters[jump.turn * 4 / turns] * low[0];
     jump.translation = {std::llrint(by.real()), std::llrint(by.imag())};
@@ -152,7 +153,7 @@ void Half::add_cones_in_plane(int turns, TurnedMap& map) const {
     for (int i = 0; i < 3; ++i) z[i] = at(map.uv, whole_.triangle_corners[t][i]);
     for (int i = 0; i < 3; ++i) {
       const double angle = std::arg((z[(i + 2) % 3] - z[i]) * std::conj(z[(i + 1) % 3] - z[i]));
-      around[whole_.triangles[t][i]] += angle / (2 * std::numbers::pi);
+      around[whole_.triangles[t][i]] += angle / kTwoPi;
     }
   }
   for (std::size_t e = 0; e < whole_.edges.size(); ++e) {
@@ -170,7 +171,7 @@ TurnedTiler::TurnedTiler(std::shared_ptr<const mesh::Surface> surface, const Til
                          Execution& execution)
     : surface_(std::move(surface)),
       options_(options),
-      usual_tiles_(std::max(kUsualTiles, kTilesPerHandle * mesh::topological_type(*surface_).genus)) {
+      usual_tiles_(std::max(kUsualTiles, kTurnedTilesPerHandle * mesh::topological_type(*surface_).genus)) {
   if (surface_->intrinsic()) throw TopologyError("a turned map needs positions: the surface has edge lengths alone");
   if (options_.rows == Rows::kMirror && options_.chosen.empty()) half_.emplace(*surface_, options_.up, execution);
   std::vector<int> lines;
@@ -220,7 +221,7 @@ std::vector<int> found_lines(const mesh::Surface& surface, const std::vector<mes
   const std::vector<double> bends = mesh::bends(surface);
   std::vector<int> hard;
   for (int e = 0; e < std::ssize(bends); ++e) {
-    if (bends[e] > mesh::radians(kHard)) hard.push_back(e);
+    if (bends[e] > mesh::radians(kHardDegrees)) hard.push_back(e);
   }
   std::vector<int> edges = long_lines(surface, hard);
   std::vector<mesh::Pair> ends;

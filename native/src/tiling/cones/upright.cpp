@@ -3,10 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
+
+#include "base/constants.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -15,9 +16,10 @@ constexpr double kSteep = 0.35;     // least sine between the normal and the ver
 constexpr double kOnItsHead = 0.5;  // beside 1 for what lies on its side, as in quality/appearance.py
 // The price of an edge that turns and is as long as the root of the area, where it is smooth. It falls to the part
 // where the edge bends by the angle. Little, as no texture that the map is made for shows where it turns.
-constexpr double kSeam = 0.02, kHard = 0.06, kHiding = std::numbers::pi / 3;
-constexpr int kRounds = 30;  // at most, and looks at each polygon or region in one: they end where nothing is gained
-constexpr double kGain = 1e-9;
+constexpr double kSeam = 0.02, kSeenAtHard = 0.06, kHides = std::numbers::pi / 3;
+constexpr int kUprightRounds =
+    30;  // at most, and looks at each polygon or region in one: they end where nothing is gained
+constexpr double kLessTurned = 1e-9;
 
 // What is minded of a texture turned by this angle from up.
 double minded(double angle) {
@@ -83,8 +85,7 @@ class Turner {
   void find_minded(const mesh::Surface& surface, const Net& net, const uv::UvArray& in_plane, const Along& along) {
     for_steep(surface, net, in_plane, along, [&](int t, double angle) {
       for (int s = 0; s < k_; ++s) {
-        minded_[surface.triangle_faces[t] * k_ + s] +=
-            net.area[t] / net.whole_area * minded(angle + 2 * std::numbers::pi / k_ * s);
+        minded_[surface.triangle_faces[t] * k_ + s] += net.area[t] / net.whole_area * minded(angle + kTwoPi / k_ * s);
       }
     });
   }
@@ -98,7 +99,7 @@ class Turner {
       if (one == other) continue;
       of_polygon_[one].push_back(static_cast<int>(links_.size()));
       of_polygon_[other].push_back(static_cast<int>(links_.size()));
-      const double seen = std::max(1 - bend(surface, side / 3, back / 3) / kHiding, kHard);
+      const double seen = std::max(1 - bend(surface, side / 3, back / 3) / kHides, kSeenAtHard);
       const double length = std::abs(net.along[side]) / std::sqrt(net.whole_area);
       links_.push_back({one, other, std::max(turn[side], 0), kSeam * length * seen});
     }
@@ -136,7 +137,7 @@ class Turner {
   }
 
   std::vector<int> lowered(std::vector<int> s) const {
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kUprightRounds; ++round) {
       std::vector<int> alone(count_);
       for (int p = 0; p < count_; ++p) alone[p] = p;
       const bool moved = turn_regions(alone, count_, s);
@@ -185,7 +186,7 @@ class Turner {
     std::vector<int> by(count, 0), queue(count);
     std::iota(queue.begin(), queue.end(), 0);
     std::vector<char> waits(count, 1);
-    const std::size_t most = static_cast<std::size_t>(kRounds) * count;
+    const std::size_t most = static_cast<std::size_t>(kUprightRounds) * count;
     for (std::size_t i = 0; i < queue.size() && i < most; ++i) {
       const int own = queue[i];
       waits[own] = 0;
@@ -197,7 +198,7 @@ class Turner {
         price[one == own ? reduced(now + by[other]) : reduced(by[one] - now)] -= link.price;
       }
       const int best = static_cast<int>(std::ranges::min_element(price) - price.begin());
-      if (!(price[best] < price[by[own]] - kGain)) continue;
+      if (!(price[best] < price[by[own]] - kLessTurned)) continue;
       by[own] = best;
       for (const int l : of_region[own]) {
         const int one = region[links_[l].one], next = one == own ? region[links_[l].other] : one;
@@ -227,7 +228,7 @@ std::vector<int> upright_turns(const mesh::Surface& surface, const Net& net, con
 double off_level(const mesh::Surface& surface, const Net& net, const uv::UvArray& in_plane, int k, const Along& along) {
   double sum = 0;
   for_steep(surface, net, in_plane, along, [&](int t, double angle) {
-    const double unit = 2 * std::numbers::pi / k;
+    const double unit = kTwoPi / k;
     sum += net.area[t] / net.whole_area * minded(angle - unit * std::round(angle / unit));
   });
   return sum;

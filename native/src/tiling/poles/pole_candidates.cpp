@@ -11,11 +11,11 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kApart = 0.06;  // least distance of two poles, in square roots of the area
-constexpr int kSpread = 200;     // candidates all over the surface
+constexpr double kBallsApart = 0.06;  // least distance of two poles, in square roots of the area
+constexpr int kSpread = 200;          // candidates all over the surface
 // Around a pole, candidates come from fixed subsets of all vertices, some {600, 1800, 5400} of them, within these
 // radii. So poles near each other, and a pole that moved, have candidates in common, and fewer systems are solved.
-constexpr std::pair<int, double> kAround[] = {{600, 0.15}, {1800, 0.08}, {5400, 0.04}};
+constexpr std::pair<int, double> kBalls[] = {{600, 0.15}, {1800, 0.08}, {5400, 0.04}};
 
 std::vector<int> evenly(const std::vector<int>& list, int count) {
   if (static_cast<int>(list.size()) <= count) return list;
@@ -86,7 +86,7 @@ std::vector<int> PoleCandidates::near(int vertex) {
   const auto& distance = distances(vertex);
   const auto count = static_cast<int>(distance.size());
   std::vector<int> all;
-  for (const auto& [most, ball] : kAround) {
+  for (const auto& [most, ball] : kBalls) {
     const double radius = ball * std::sqrt(basis_.area());
     const int step = 1 + (count - 1) / most;
     for (int v = 0; v < count; v += step) {
@@ -99,7 +99,7 @@ std::vector<int> PoleCandidates::near(int vertex) {
 std::vector<int> PoleCandidates::free_ones(std::vector<int> candidates, const std::vector<int>& others) {
   const auto& surface = basis_.surface();
   const auto& half_edges = basis_.half_edges();
-  const double apart = kApart * std::sqrt(basis_.area());
+  const double apart = kBallsApart * std::sqrt(basis_.area());
   std::vector<char> taken(surface.vertex_count, 0);
   std::set<int> opposite;  // in the large polygons of the others
   for (const int pole : others) {

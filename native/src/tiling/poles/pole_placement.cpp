@@ -214,23 +214,23 @@ std::optional<MeromorphicForm> PoleSearch::least_missed(MeromorphicForm form, co
 constexpr int kCounts[] = {2, 4, 8, 12, 16};       // numbers of poles that are tried
 constexpr int kFew = 4;                            // up to this number, poles are placed by all samples,
 constexpr int kEvery = 3;                          // more of them by every third one,
-constexpr int kManyForms = 64;                     // and all poles where there are as many forms as this
+constexpr int kManyFormsToPlace = 64;              // and all poles where there are as many forms as this
 constexpr double kEvenWithout = 3, kEvenWith = 5;  // spread of the density
 constexpr double kHopeful = 2 * kEvenWith;  // only with a lower one a count is worth a search for the best places
 constexpr int kCountsEvened[] = {2, 3, 4, 6, 8, 10, 12, 14, 16};
 constexpr double kEvenedWithout = 2.85, kEvened = 2.75;  // spread of the evened density
 constexpr double kHopefulEvened = 1.2 * kEvened;
-constexpr double kUsualValues = 30;  // usual evaluations of the objective in the last descent
-constexpr double kOperations = 4;    // of an evaluation, for each sample and form
-constexpr double kWorth = 0.9;       // more poles are taken where the spread falls to this part of itself
+constexpr double kUsualDescent = 30;      // usual evaluations of the objective in the last descent
+constexpr double kDescentOperations = 4;  // of an evaluation, for each sample and form
+constexpr double kWorth = 0.9;            // more poles are taken where the spread falls to this part of itself
 
 // The stride of the samples in a search for this number of poles.
 int thinning(const GreensFunctions& greens, int count) {
-  return count <= kFew && greens.basis().form_count() < kManyForms ? 1 : kEvery;
+  return count <= kFew && greens.basis().form_count() < kManyFormsToPlace ? 1 : kEvery;
 }
 
 // The spread of the density that evening is expected to leave.
-double evened(double spread) { return std::pow(spread, uv::kUsualPower); }
+double evened_spread(double spread) { return std::pow(spread, uv::kUsualPower); }
 
 MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
   form = search.settled(std::move(form));
@@ -244,14 +244,14 @@ MeromorphicForm enough_for_evening(GreensFunctions& greens, const PlaceOptions& 
   // The spread of the conformal map that evening takes to kEvened.
   const double enough = std::pow(kEvened, 1 / uv::kUsualPower);
   MeromorphicForm added = few.begin(), best = added;
-  double least = evened(few.spread_of(best));
+  double least = evened_spread(few.spread_of(best));
   for (const int count : kCountsEvened) {
     PoleSearch& search = count <= kFew ? few : more;
     if (least <= (best.poles.empty() ? kEvenedWithout : kEvened) || !search.add(added, count)) break;
     search.sweep(added);
-    if (count == *std::rbegin(kCountsEvened) || evened(search.spread_of(added)) < kHopefulEvened)
+    if (count == *std::rbegin(kCountsEvened) || evened_spread(search.spread_of(added)) < kHopefulEvened)
       added = search.settled(std::move(added), enough);
-    const double spread = evened(search.spread_of(added));
+    const double spread = evened_spread(search.spread_of(added));
     if (spread >= least && added.objective > kWorth * best.objective) continue;
     least = spread;
     best = added;
@@ -310,7 +310,7 @@ MeromorphicForm optimised(GreensFunctions& greens, uv::Coefficients kind, Meromo
   PoleObjective objective(greens, kind);
   objective.prepare(start.poles, start.residues.size(), execution);
   const auto samples = static_cast<double>(greens.basis().holomorphic().M.size());
-  TaskProgress watch(execution, kUsualValues, kOperations * samples);
+  TaskProgress watch(execution, kUsualDescent, kDescentOperations * samples);
   objective.fit(start, {uv::kDensityFloor}, [&] { watch(0); });
   return start;
 }

@@ -5,21 +5,21 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "base/workers.h"
 
 namespace holomorph::tiling {
 namespace {
 
-constexpr int kMantissa = 23, kBias = 127;
+constexpr int kFloatMantissa = 23, kBias = 127;
 constexpr float kOctave = 0.69314718F;  // log 2
 // Bins of the histogram of logarithms of base 2, for the median.
 constexpr int kBins = 1032, kBinsPerOctave = 4;
 
 // Real parts above imaginary ones.
-Eigen::VectorXf halves(const VectorXcd& A) {
+Eigen::VectorXf as_floats(const VectorXcd& A) {
   Eigen::VectorXf result(2 * A.size());
   result << A.real().cast<float>(), A.imag().cast<float>();
   return result;
@@ -28,8 +28,8 @@ Eigen::VectorXf halves(const VectorXcd& A) {
 // log2 of a positive float to 2e-5: the exponent and a polynomial for the mantissa.
 float log2_of(float x) {
   const auto bits = std::bit_cast<std::int32_t>(x);
-  const float exponent = static_cast<float>((bits >> kMantissa) - kBias);
-  const float t = std::bit_cast<float>((bits & ((1 << kMantissa) - 1)) | (kBias << kMantissa)) - 1;
+  const float exponent = static_cast<float>((bits >> kFloatMantissa) - kBias);
+  const float t = std::bit_cast<float>((bits & ((1 << kFloatMantissa) - 1)) | (kBias << kFloatMantissa)) - 1;
   return exponent + t * (1.44183587F + t * (-0.70837215F + t * (0.41355505F + t * (-0.19126251F + t * 0.04424374F))));
 }
 
@@ -72,13 +72,13 @@ MeromorphicForm joined(MeromorphicForm form, int vertex, Complex residue, bool c
 
 void CandidateScores::prepare(const std::vector<int>& vertices) {
   for (const int v : vertices) {
-    if (!columns_.contains(v)) columns_.emplace(v, halves(greens_.at({v}, every_).col(0)));
+    if (!columns_.contains(v)) columns_.emplace(v, as_floats(greens_.at({v}, every_).col(0)));
   }
 }
 
 void CandidateScores::set_rest(const VectorXcd& A, double median) {
   scale_ = 1 / std::sqrt(median);
-  rest_ = halves(scale_ * A);
+  rest_ = as_floats(scale_ * A);
 }
 
 double CandidateScores::operator()(int vertex, Complex residue) const {
@@ -196,8 +196,7 @@ std::vector<SearchSteps::Trial> SearchSteps::trials_everywhere(const Meromorphic
   std::vector<Trial> trials;
   for (const int v : candidates) {
     for (const double size : kTrialSizes) {
-      for (int j = 0; j < phases; ++j)
-        trials.push_back({0, v, std::polar(size * scale, 2 * std::numbers::pi * j / phases)});
+      for (int j = 0; j < phases; ++j) trials.push_back({0, v, std::polar(size * scale, kTwoPi * j / phases)});
     }
   }
   run_throwing(execution_.workers(), static_cast<int>(trials.size()),

@@ -15,27 +15,28 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kChange = 0.2;     // relative change of the form that costs 1
-constexpr double kRegular = 1e-12;  // of the largest diagonal entry, added to keep a Gram matrix definite
-constexpr Index kManyColumns = 192, kColumns = 32;  // matrices with many columns are multiplied in blocks of columns
+constexpr double kChange = 0.2;         // relative change of the form that costs 1
+constexpr double kRegularGram = 1e-12;  // of the largest diagonal entry, added to keep a Gram matrix definite
+constexpr Index kManyColumns = 192,
+                kBlockColumns = 32;  // matrices with many columns are multiplied in blocks of columns
 
 // Upper R with R^H R = H.
 MatrixXcd root(MatrixXcd H) {
   if (H.rows() == 0) return H;
-  H += kRegular * H.diagonal().real().maxCoeff() * MatrixXcd::Identity(H.rows(), H.cols());
+  H += kRegularGram * H.diagonal().real().maxCoeff() * MatrixXcd::Identity(H.rows(), H.cols());
   return linear::Cholesky(H).upper();
 }
 
 // Calls task(begin, size) for blocks of columns, in parallel.
 template <class Task>
 void for_columns(Index count, Execution& execution, const Task& task) {
-  const auto blocks = static_cast<int>((count + kColumns - 1) / kColumns);
+  const auto blocks = static_cast<int>((count + kBlockColumns - 1) / kBlockColumns);
   constexpr int kAtATime = 8;
   for (int first = 0; first < blocks; first += kAtATime) {
     execution.report(0);
     run_long_tasks(execution.workers(), std::min(kAtATime, blocks - first), [&](int i) {
-      const Index begin = (first + i) * kColumns;
-      task(begin, std::min(kColumns, count - begin));
+      const Index begin = (first + i) * kBlockColumns;
+      task(begin, std::min(kBlockColumns, count - begin));
     });
   }
 }
@@ -55,7 +56,7 @@ MatrixXcd gram(const MatrixXcd& forms, const VectorXcd& weights, Execution& exec
 constexpr double kDefects[] = {0.3, 0.1, 0.03, 0.01, 0.003};  // |mu| that costs 1
 constexpr int kPhases = 30, kScales = 7;
 constexpr std::size_t kWanted = 8;  // roundings that are returned, at most
-constexpr int kSteps = 3;           // rounds of short steps, each from the best of the last
+constexpr int kShortRounds = 3;     // rounds of short steps, each from the best of the last
 constexpr int kNearPhases = 7;      // phases around a given one
 // Reducing a lattice of more integers as a whole takes more than a few seconds, a time that grows with the fourth
 // power. Then it is reduced by blocks, for fewer prices of defects, and fewer phases and scales are tried.
@@ -273,7 +274,7 @@ std::vector<Rounding> RoundingSearch::best() const {
     for (const linear::IntegerVector& z : list) found.emplace(z.begin(), z.end());
   }
   std::vector<Rounding> list = best_of(problem_, found, {}, execution_, watch);
-  for (int step = 0; step < kSteps && options_.steps && is_whole(); ++step) {
+  for (int step = 0; step < kShortRounds && options_.steps && is_whole(); ++step) {
     const auto further = a_step_away(problem_, options_, list, weighted_.front().reduced.transform, found);
     found.insert(further.begin(), further.end());
     list = best_of(problem_, further, std::move(list), execution_, watch);

@@ -1,0 +1,13 @@
+// Numbers that all rooms share.
+#pragma once
+
+#include <limits>
+#include <numbers>
+
+namespace holomorph {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kTwoPi = 2 * std::numbers::pi;
+inline constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;  ///< the unit of rounding
+
+}  // namespace holomorph
