@@ -1,10 +1,13 @@
 // Numbers that all rooms share.
 #pragma once
 
+#include <complex>
 #include <limits>
 #include <numbers>
 
 namespace holomorph {
+
+using Complex = std::complex<double>;
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kTwoPi = 2 * std::numbers::pi;

@@ -22,7 +22,6 @@ namespace holomorph::bindings {
 namespace {
 
 using flat::PlaneMap;
-using Complex = std::complex<double>;
 
 std::pair<py::array, py::array> zeros(const mesh::Surface& surface, const Contiguous<double>& uv,
                                       const std::vector<int>& poles) {

@@ -27,7 +27,6 @@ namespace {
 using namespace pybind11::literals;
 using namespace choice;
 
-using Complex = std::complex<double>;
 using Shared = std::shared_ptr<AnyStructure>;
 using MutableMap = std::shared_ptr<Map>;
 using MutablePart = std::shared_ptr<Part>;

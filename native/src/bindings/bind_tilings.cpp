@@ -23,7 +23,6 @@ using choice::Heading;
 using choice::SeamlessMap;
 using choice::TileOptions;
 using choice::Tiler;
-using Complex = std::complex<double>;
 
 const char* name_of(tiling::Rows rows) {
   constexpr std::array<const char*, 4> kNames{"none", "whole", "free", "mirror"};

@@ -14,8 +14,6 @@
 namespace holomorph::choice {
 namespace {
 
-using Complex = std::complex<double>;
-
 constexpr double kSlight = 1e-6;     // part of all slopes that may be rounding
 constexpr double kMostSpread = 0.6;  // mean distance of the density's logarithm from its median: evening is lessened
 

@@ -14,8 +14,6 @@
 namespace holomorph::choice {
 namespace {
 
-using Complex = std::complex<double>;
-
 constexpr double kPlacing = 0.6;  // part of the work on a tiling, for finding the poles
 
 std::array<double, 3> up_vector(uv::Up up) {

@@ -14,8 +14,6 @@
 namespace holomorph::choice {
 namespace {
 
-using Complex = std::complex<double>;
-
 constexpr double kMostLost = 0.02;  // part of the area that a tiling may flip or let collapse: more is seen
 
 // What remains of the cost of the density that poles allow, once squares are rounded to whole tiles and evened, as it

@@ -14,7 +14,6 @@
 namespace holomorph::choice {
 namespace {
 
-using Complex = std::complex<double>;
 using Point = std::array<double, 3>;
 
 constexpr double kCut = 1.0 / 3;  // part of each edge at a pole that is cut off: less than half, both ends may be poles

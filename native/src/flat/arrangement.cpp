@@ -37,8 +37,6 @@ Shelves best_rows(const std::vector<Extent>& sizes, double gap) {
   return best;
 }
 
-using Complex = std::complex<double>;
-
 constexpr Complex kCentre(0.5, 0.5);  // the middle of the UV square
 constexpr int kSingleBits = 24;       // bits of the mantissa of single precision, which applications store
 

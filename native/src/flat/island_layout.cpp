@@ -177,7 +177,6 @@ std::vector<int> joined(const mesh::Surface& surface, uv::UvArray& uv, const std
   return lowest_of_nets(nets, surface.component_count);
 }
 
-using Complex = std::complex<double>;
 using Axis = std::array<double, 3>;
 
 constexpr double kMargin = 0.02;  // between islands, in sides of the square that they are packed into

@@ -15,8 +15,6 @@
 namespace holomorph::flat {
 namespace {
 
-using Complex = std::complex<double>;
-
 constexpr double kSpeck = 0.01;        // part of the area: less than that beside a piece does not divide a part
 constexpr double kWorth = 0.03;        // part of the area, from which on a piece is looked at by itself
 constexpr std::size_t kEnds = 2;       // the longest boundary loops of a tube

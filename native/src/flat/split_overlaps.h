@@ -12,7 +12,6 @@
 
 namespace holomorph::flat {
 
-using Complex = std::complex<double>;
 using Points = std::array<Complex, 3>;
 
 struct Box {

@@ -85,12 +85,9 @@ void add_strips(const std::vector<Border>& borders, const std::vector<Place>& pl
   }
 }
 
-using Point = std::array<double, 3>;
-
 // Radians, from which on a bend hides a seam; where it is less, in proportion.
 constexpr double kHiding = std::numbers::pi / 3;
 
-Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Point normal_of(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }

@@ -136,8 +136,6 @@ void check(const BasicPolygons<Index>& mesh, Workers& workers) {
   if (bad_face < faces) throw InvalidMesh(fault_of(mesh, bad_face));
 }
 
-using Point = std::array<double, 3>;
-
 constexpr std::size_t kSample = 1024;  // corners
 constexpr double kNearSample = 1e-3;   // of kWild: whatever the sample, there is no gap by kWild
 

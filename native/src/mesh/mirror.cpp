@@ -12,8 +12,6 @@
 namespace holomorph::mesh {
 namespace {
 
-using Point = std::array<double, 3>;
-
 constexpr double kNear = 1e-3;  // of the mean edge: places that are one
 // Directions along which few vertices are level.
 constexpr std::array<Point, 3> kDirections{{{0.271, 0.577, 0.770}, {0.802, -0.267, 0.534}, {-0.123, 0.696, 0.707}}};

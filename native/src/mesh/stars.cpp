@@ -16,8 +16,6 @@ namespace holomorph::mesh {
 
 namespace {
 
-using Complex = std::complex<double>;
-
 constexpr double kInwards = 1e-3;  // part of the way to the centre
 
 double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }

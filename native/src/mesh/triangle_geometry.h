@@ -19,15 +19,17 @@ inline constexpr double kLargest = 1e60, kSmallest = 1e-60;
 /// products of four would underflow.
 inline constexpr double kLeastSlack = 1e-75;
 
-inline double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+using Point = std::array<double, 3>;
 
-inline double largest_difference(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+inline Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+inline double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+inline double largest_difference(const Point& a, const Point& b) {
   return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
-inline double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+inline double distance(const Point& a, const Point& b) {
   const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
   return std::sqrt(x * x + y * y + z * z);
 }

@@ -9,6 +9,7 @@
 
 #include "base/constants.h"
 #include "base/workers.h"
+#include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {
 
@@ -97,8 +98,6 @@ class Looking {
   const std::vector<Triple>& triangles_;
   TriangleTree tree_;
 };
-
-using Point = std::array<double, 3>;
 
 constexpr int kBits = 21;  // for each coordinate
 constexpr int kDigit = 16, kDigits = 4;

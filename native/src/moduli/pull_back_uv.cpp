@@ -6,14 +6,13 @@
 #include <numeric>
 #include <utility>
 
+#include "base/constants.h"
 #include "base/workers.h"
 #include "linear/dense.h"
 #include "mesh/half_edges.h"
 #include "mesh/stars.h"
 
 namespace holomorph::moduli {
-
-using Complex = std::complex<double>;
 
 namespace {
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "structure/structure.h"
 
 namespace holomorph::structure {
 namespace {
 
-using Complex = std::complex<double>;
 using mesh::edge_of;
 using mesh::HalfedgeHandle;
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "base/task_progress.h"
 #include "linear/dense.h"
@@ -16,7 +17,6 @@ namespace holomorph::uv {
 
 namespace {
 
-using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::Matrix3Xd;
 using Eigen::MatrixXcd;
@@ -87,7 +87,6 @@ MatrixXcd tangent_frames(const mesh::Surface& surface, const std::vector<int>& t
 
 namespace {
 
-using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::VectorXcd;

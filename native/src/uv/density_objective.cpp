@@ -4,6 +4,7 @@
 #include <complex>
 #include <numeric>
 
+#include "base/constants.h"
 #include "linear/blas.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/triangle_tree.h"
@@ -11,7 +12,6 @@
 namespace holomorph::uv {
 namespace {
 
-using Complex = std::complex<double>;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;

@@ -122,8 +122,6 @@ bool has_height(const std::vector<Ends>& curve) {
   return differs;
 }
 
-using Complex = std::complex<double>;
-
 // Largest s2 / s1 of a collapsed triangle: rounding.
 constexpr double kNoArea = 1e-12;
 

@@ -6,6 +6,7 @@
 #include <complex>
 #include <vector>
 
+#include "base/constants.h"
 #include "base/page_allocator.h"
 #include "base/workers.h"
 #include "mesh/surface.h"
@@ -14,8 +15,6 @@
 namespace holomorph::uv {
 
 // The energy by which evening weighs the shear of a triangle against its size; see StrainEnergy.
-
-using Complex = std::complex<double>;
 
 /// #T, for each corner the complex number of modulus 1 by which a function at its vertex is turned there. Across an
 /// edge all three of a triangle differ by one turn. Empty: by none.

@@ -12,8 +12,6 @@
 
 namespace holomorph::uv {
 
-using Complex = std::complex<double>;
-
 namespace {
 
 class Clusters {

@@ -8,12 +8,11 @@
 #include <string>
 
 #include "mesh/io/scanner.h"
+#include "mesh/triangle_geometry.h"
 #include "mesh/welding.h"
 
 namespace holomorph::mesh {
 namespace {
-
-using Point = std::array<double, 3>;
 
 /// Gives equal points equal numbers, counted by first appearance. NaN equals nothing, so each such point is a vertex of
 /// its own.
@@ -51,7 +50,6 @@ class Weld {
   std::vector<std::int64_t> slots_;
 };
 
-using Point = std::array<double, 3>;
 using std::to_string;
 
 constexpr std::size_t header_size = 84;    // bytes: 80 of comment, and the count

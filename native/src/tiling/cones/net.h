@@ -4,11 +4,10 @@
 #include <complex>
 #include <vector>
 
+#include "base/constants.h"
 #include "mesh/surface.h"
 
 namespace holomorph::tiling {
-
-using Complex = std::complex<double>;
 
 /// Side 3 t + i runs from corner i of triangle t to corner i + 1. The plane of a triangle has its corner 0 at 0, and
 /// its side 0 along the real axis. A triangle without area does not count.

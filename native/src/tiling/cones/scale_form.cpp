@@ -17,16 +17,15 @@ namespace {
 
 constexpr std::size_t kExtrema = 80;  // at most
 
+using mesh::difference;
 using mesh::dot;
-using Point = std::array<double, 3>;
+using mesh::Point;
 
 constexpr double kScale = 40;                           // of the weight, relative to the lowest modes of the field
 constexpr double kLeastWeight = 0.1, kMostWeight = 10;  // weights of edges between the limits, for their inverses
 constexpr double kCancels = 0.3;  // of a side's length: two lines of a triangle that are no k-th turn apart
 constexpr double kUpright = 0.7;  // cosine
 constexpr int kPulls = 8;         // steps, each with the same matrix
-
-Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 // The field at the triangles beside lines, 0 at others: of two lines that disagree the longer one counts.
 std::vector<Complex> beside_lines(const Net& net, const std::vector<Point>& points, int k, const Along& along) {

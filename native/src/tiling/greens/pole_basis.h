@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "base/execution.h"
 #include "base/resource_pool.h"
@@ -24,7 +25,6 @@ namespace holomorph::tiling {
 
 // The short names of matrices in this room.
 
-using Complex = std::complex<double>;
 using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXcd;
