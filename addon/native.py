@@ -124,9 +124,9 @@ class _Library:
     """The package, which is loaded when something of it is needed; modules that NumPy may be loaded with import it."""
 
     def __getattr__(self, name):
-        value = getattr(load(), name)
-        setattr(self, name, value)  # the next time Python itself finds it
-        return value
+        package = load()
+        vars(self).update(vars(package))  # the next time Python itself finds what there is
+        return getattr(package, name)
 
 
 holomorph = _Library()
@@ -135,11 +135,6 @@ holomorph = _Library()
 def module(name):
     """A module of the package that importing the package does not import."""
     return importlib.import_module(f"{load().__name__}.{name}")
-
-
-def refusals():
-    """The exceptions with which a mesh is refused; their sentences are for the user."""
-    return holomorph.Error, MemoryError
 
 
 def fault(error):

@@ -9,10 +9,10 @@ import math
 import bpy
 import numpy as np
 
-from .. import native
 from ..maps import packing
 from ..native import holomorph
 from ..scene import mesh_io, uv_maps
+from ..solving.jobs import REFUSALS
 
 MOST_COST = 0.8  # of our islands, see the package's `appearance`: with more, a projection has fewer seams
 ANGLE = math.radians(66)  # between faces and the direction that they are projected along, Blender's own
@@ -46,7 +46,7 @@ def _parts(polygons):
     """Connected parts; none of what is not a surface."""
     try:
         return polygons.surface(strict=False).components
-    except native.refusals():
+    except REFUSALS:
         return ()
 
 
@@ -54,7 +54,7 @@ def _flat(part):
     """(#C, 2) islands of a part that do not overlap and look good; None where there are none."""
     try:
         found = holomorph.island_map(part)
-    except native.refusals():
+    except REFUSALS:
         return None
     if found is None or found.cost > MOST_COST:
         return None

@@ -119,14 +119,10 @@ def shape_points(solved):
     return points if any(image is not None for image, _ in found) else None
 
 
-def follow(wanted, is_equal=False):
+def follow(wanted, is_equal, found, progress):
     """What follows the solves of a `jobs.Job`: the `mapped` objects, by those that are wanted for each of its tasks."""
-
-    def then(found, progress):
-        objects = [replace(wanted[k], solved=solved) for k, solved in found.items()]
-        return dict(zip(found, mapped(objects, is_equal, progress)))
-
-    return then
+    objects = [replace(wanted[k], solved=solved) for k, solved in found.items()]
+    return dict(zip(found, mapped(objects, is_equal, progress)))
 
 
 def mapped(objects, is_equal=False, progress=None):

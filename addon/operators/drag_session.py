@@ -2,6 +2,7 @@
 """A tiling while its poles are dragged: what there was, what comes of a move, and its end. No events in here."""
 
 from dataclasses import replace
+from functools import partial
 from itertools import chain
 
 import numpy as np
@@ -103,7 +104,7 @@ class Session:
         """A `jobs.Job` that makes the tiling with poles at other vertices, {pole: vertex}; what was dragged in an
         earlier session stays there."""
         wanted = self._moved(moves) if moves else self._wanted
-        return jobs.Job([self._task], then=mapped.follow([wanted]))
+        return jobs.Job([self._task], then=partial(mapped.follow, [wanted], False))
 
     def _moved(self, moves):
         """The `mapped.MappedObject` that is wanted with these moves."""
@@ -139,7 +140,7 @@ class Session:
     def taken(self, job):
         """The `mapped.MappedObject` of a job that is done. @throws ValueError where the library refused the move"""
         result = job.error or job.results[0]
-        if isinstance(result, native.refusals()):
+        if isinstance(result, jobs.REFUSALS):
             raise ValueError(native.sentence(result))
         before = [part.component for part in self._tiled(self.mapped)] if self.mapped else []
         for part in result.parts:

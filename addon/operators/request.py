@@ -4,6 +4,7 @@
 import ast
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -76,7 +77,7 @@ class Run:
 
     def job(self, progress=None):
         """The `jobs.Job` that solves and maps."""
-        return jobs.Job(self.tasks, progress, mapped.follow(self._wanted, self._is_equal))
+        return jobs.Job(self.tasks, progress, partial(mapped.follow, self._wanted, self._is_equal))
 
     @property
     def only(self):
@@ -108,12 +109,26 @@ def collect(objects, dials):
     faces = jobs.SELECTED if dials.main == SEAMLESS else FACES.get(use, jobs.WHOLE)
     asked = jobs.Choices(
         use=jobs.NONE if use == "FACES" or is_taken else use,
-        residues=jobs.numbers(getattr(dials, "residues", "")),
+        residues=residues(getattr(dials, "residues", "")),
         is_late=are_islands,
         solver=dials.solver,
     )
     at_seams = dials.main != SEAMLESS and (dials.cut_at_seams or are_islands)
     return targets.collect(objects, asked, jobs.WHOLE if is_taken else faces, dials.modifiers, at_seams)
+
+
+def residues(text):
+    """The complex numbers in a text like "1 1 -2" or "1+0.5j, -1-0.5j". @throws ValueError naming what is none"""
+    result = []
+    for word in text.replace(",", " ").split():
+        try:
+            number = complex(word)
+        except ValueError:
+            number = complex("nan")
+        if not np.isfinite(number):
+            raise ValueError(f"residues: {word!r} is not a number")
+        result.append(number)
+    return tuple(result)
 
 
 def own_texture(dials):

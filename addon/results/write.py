@@ -9,6 +9,7 @@ from .. import native
 from ..maps import mapped, packing
 from ..materials import material
 from ..scene import gathering, mesh_io, stored_dials, targets, uv_maps
+from ..solving.jobs import REFUSALS
 from ..writing import transaction
 from . import heat, points, report, restore, stored, tags
 from .report import Outcome, with_coarse_places
@@ -60,7 +61,7 @@ def _why_not(target, result, time_has_passed):
     """Why nothing is written to an object, or ""."""
     if target.refused:
         return target.refused
-    if isinstance(result, native.refusals()):
+    if isinstance(result, REFUSALS):
         return native.sentence(result)
     has_changed = target.has_changed(time_has_passed)
     return "it changed during the solve; please run it again" if has_changed else ""

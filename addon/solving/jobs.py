@@ -12,7 +12,6 @@ from functools import cached_property
 
 import numpy as np
 
-from .. import native
 from ..native import holomorph, module
 
 structures = module("maps.chosen_structures")
@@ -25,23 +24,39 @@ DOUBLE = 8  # bytes
 DOUBLES_OF_TILER = 40  # for each edge: half-edges, weights, the multigrid hierarchy
 DOUBLES_OF_MAP = 6  # for each corner: UVs and quality
 KEPT_MAPS = 4  # maps kept for each object: the redo panel goes back and forth between a few
+REFUSALS = holomorph.Error, MemoryError  # with which a mesh is refused; their sentences are for the user
+
+
+class Kept(dict):
+    """Values by their keys, that which was asked for last at the end: `limit` bytes at most by their `nbytes`, but
+    always the last one."""
+
+    def __init__(self, limit):
+        super().__init__()
+        self.limit = limit
+
+    def get(self, key):
+        """The value of a key; None where it is not kept."""
+        value = self.pop(key, None)
+        if value is not None:
+            self[key] = value
+        return value
+
+    def keep(self, key, value):
+        """Keeps the value, and returns it."""
+        self[key] = value
+        self.trim()
+        return value
+
+    def trim(self):
+        """Drops values beyond the limit. For the caller where values have grown."""
+        while len(self) > 1 and sum(value.nbytes for value in self.values()) > self.limit:
+            del self[next(iter(self))]
+
+
 # Solves, so that the dials of the redo panel cost one small matrix product and no solve: an object that was moved,
 # renamed, undone or reopened has the same, one that was edited has not.
-KEPT = module("core.newest").Kept(1_200_000_000)
-
-
-def numbers(text):
-    """The complex numbers in a text like "1 1 -2" or "1+0.5j, -1-0.5j"; raises ValueError naming what is none."""
-    result = []
-    for word in text.replace(",", " ").split():
-        try:
-            number = complex(word)
-        except ValueError:
-            number = complex("nan")
-        if not np.isfinite(number):
-            raise ValueError(f"residues: {word!r} is not a number")
-        result.append(number)
-    return tuple(result)
+KEPT = Kept(1_200_000_000)
 
 
 @dataclass(frozen=True)
@@ -81,7 +96,7 @@ class SolvedObject:
     @cached_property
     def form_count(self):
         """The largest number of forms among the components."""
-        return max((c.structure.form_count for c in self.done), default=0)
+        return max([c.structure.form_count for c in self.done], default=0)
 
     def keep_maps(self, asked, made):
         """Adds those of the `done` components, and drops the oldest beyond `KEPT_MAPS`."""
@@ -120,8 +135,8 @@ def solved_anew(task, progress=None):
 
 class Work:
     """Work that the library runs in a thread and that can be cancelled: after `cancel()` it ends at the library's next
-    call of `watch`, and nothing more is solved or kept. Subclasses define `work`; one of `native.refusals` that ends it
-    is the `error`.
+    call of `watch`, and nothing more is solved or kept. Subclasses define `work`; one of `REFUSALS` that ends it is
+    the `error`.
 
     progress : is told the fraction that is done
     """
@@ -149,7 +164,7 @@ class Work:
         """Works here and now, in the calling thread."""
         try:
             self.work()
-        except native.refusals() as error:
+        except REFUSALS as error:
             self.error = error
 
 
@@ -157,7 +172,7 @@ class Job(Work):
     """Solves a list of `Task` one after the other, and then goes on with all solves as the function `then` does,
     if there is one: from {i: SolvedObject} of `tasks[i]`, and a progress function, it makes {i: result}.
 
-    `results[i]` is that, or the `SolvedObject`; or the error that refused the mesh, one of `native.refusals`.
+    `results[i]` is that, or the `SolvedObject`; or the error that refused the mesh, one of `REFUSALS`.
     """
 
     SOLVE_SHARE = 0.3  # part of the work where something follows
@@ -178,19 +193,19 @@ class Job(Work):
     def _followed(self, solved, share):
         try:
             return self._then(solved, self.watch.part(share, 1.0))
-        except native.refusals() as error:
+        except REFUSALS as error:
             return dict.fromkeys(solved, error)
         finally:
             KEPT.trim()  # tilers and maps are part of the solves
 
     def _solved(self, share):
         """{i: SolvedObject}, until the job is cancelled; refusals become results."""
-        refusals, count, made = native.refusals(), len(self._tasks), {}
+        count, made = len(self._tasks), {}
         for index, task in enumerate(self._tasks):
             if self.watch.is_cancelled:
                 break
             try:
                 made[index] = solve(task, self.watch.part(share * index / count, share * (index + 1) / count))
-            except refusals as error:
+            except REFUSALS as error:
                 self.results[index] = error
         return made

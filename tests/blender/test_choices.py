@@ -8,13 +8,13 @@ from scenes import mesh_io, mesh_object, pick, sphere_arrays, torus, torus_array
 solve, native, targets = module("solving.jobs"), module("native"), module("scene.targets")
 
 
-def test_numbers():
-    assert solve.numbers("") == ()
-    assert solve.numbers("1, 1 -2") == (1, 1, -2)
-    assert solve.numbers("1+0.5j,-1-0.5j") == (1 + 0.5j, -1 - 0.5j)
+def test_residues():
+    assert module("operators.request").residues("") == ()
+    assert module("operators.request").residues("1, 1 -2") == (1, 1, -2)
+    assert module("operators.request").residues("1+0.5j,-1-0.5j") == (1 + 0.5j, -1 - 0.5j)
     for wrong in ("one", "1 nan", "inf"):
         with pytest.raises(ValueError, match="is not a number"):
-            solve.numbers(wrong)
+            module("operators.request").residues(wrong)
 
 
 def collected(obj, use):

@@ -87,11 +87,11 @@ def test_tilers_count_in_the_size_of_what_is_kept(monkeypatch):
     for obj in (first, second):
         select(obj)
         tile()
-    solved = kept.values()
+    solved = list(kept.values())
     assert len(solved) == 2 and all(s.nbytes > 8 * 40 * len(s.done[0].structure.edges) for s in solved)
     monkeypatch.setattr(kept, "limit", solved[1].nbytes)
     tile(tiles=150)
-    assert kept.values() == solved[1:]
+    assert list(kept.values()) == solved[1:]
 
 
 def test_a_pole_goes_where_it_is_put_and_the_map_stays_seamless(stages):

@@ -2,6 +2,7 @@
 
 import threading
 from dataclasses import replace
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -142,6 +143,27 @@ def test_the_oldest_solves_go_when_memory_is_full(monkeypatch):
     module("solving.jobs").Job([task_of(torus("Last", around=32))]).run()
     assert not any(kept.get(task.key) for task in tasks)
     assert kept.get(task_of(bpy.data.objects["Last"]).key)
+
+
+def test_what_was_asked_for_longest_ago_goes_first_and_the_last_one_stays():
+    kept, sizes = module("solving.jobs").Kept(10), {"a": 4, "b": 4, "c": 4, "large": 99}
+    values = {name: SimpleNamespace(nbytes=size) for name, size in sizes.items()}
+    for name in "ab":
+        assert kept.keep(name, values[name]) is values[name]
+    assert kept.get("a") is values["a"]
+    kept.keep("c", values["c"])
+    assert kept.get("b") is None and list(kept.values()) == [values["a"], values["c"]]
+    kept.keep("large", values["large"])
+    assert list(kept.values()) == [values["large"]]
+
+
+def test_values_that_have_grown_are_dropped_when_they_are_counted_again():
+    kept, first, second = module("solving.jobs").Kept(10), SimpleNamespace(nbytes=1), SimpleNamespace(nbytes=2)
+    kept.keep(1, first), kept.keep(2, second)
+    first.nbytes = 9
+    assert list(kept.values()) == [first, second]
+    kept.trim()
+    assert list(kept.values()) == [second]
 
 
 def test_any_difference_makes_another_task():

@@ -1,6 +1,7 @@
 """Objects for the tests, and the operators that most tests call."""
 
 import importlib
+from functools import partial
 
 import bmesh
 import bpy
@@ -160,7 +161,7 @@ def run(main="BALANCED", **options):
 def then(count=1, main="AUTOMATIC"):
     """What follows the solves of a `jobs.Job`: `mapped.MappedObject`s with this main map."""
     mapped = importlib.import_module("holomorph_addon.maps.mapped")
-    return mapped.follow([mapped.MappedObject(mapped.Request(main.lower()), main=main)] * count)
+    return partial(mapped.follow, [mapped.MappedObject(mapped.Request(main.lower()), main=main)] * count, False)
 
 
 def written(obj, **options):
