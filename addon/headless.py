@@ -155,7 +155,7 @@ def _press(name, values, objects, entries):
     """Presses a button, and adds what is reported of each object. The objects for which the next one is pressed.
     @throws RuntimeError nothing was done"""
     from . import compatibility
-    from .results import report
+    from .results import write
     from .scene import stored_dials
 
     if values.get("texture") == "IMAGE" and Path(values.get("source", "")).is_file():
@@ -168,7 +168,7 @@ def _press(name, values, objects, entries):
         for obj in compatibility.objects_in(bpy.context.view_layer):
             obj.select_set(obj in group)
         bpy.context.view_layer.objects.active = group[0]
-        outcome = kind.outcome = report.Outcome([obj.name for obj in group])  # of a button that tells of none
+        outcome = kind.outcome = write.Outcome([obj.name for obj in group])  # of a button that tells of none
         try:
             operator(**values)
         except RuntimeError:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..materials import material, nodes
 from ..results import heat, restore, tags
-from ..results.report import Outcome
+from ..results.write import Outcome
 from ..scene import gathering, uv_maps
 from ..writing import transaction
 from . import images

@@ -73,9 +73,9 @@ def is_blocked():
 
 
 def _is_edited(obj):
-    from ..results import stored
+    from ..results import report
 
-    return stored.is_edited(obj)
+    return report.is_edited(obj)
 
 
 def _draw_button(layout, is_update):

@@ -69,7 +69,7 @@ class HOLOMORPH_made_of(bpy.types.PropertyGroup):
 
 
 class HOLOMORPH_made(bpy.types.PropertyGroup):
-    """What is known of the map that was made: what `results.stored` writes.
+    """What is known of the map that was made: what `results.report` writes.
 
     map : the name of the main map, "" for none
     shape_key : of the mesh; scale_of : the object with the same mesh whose scale was taken, "" for its own
@@ -79,7 +79,7 @@ class HOLOMORPH_made(bpy.types.PropertyGroup):
     own_turns, averaged : of the texture of the user's that is shown, see `user_texture.Own`; 0 without one
     is_tiled : whether parts have tilings, or pieces of them; turns : the part of a full turn by which these turn
     tiles, width : how many, and how wide they are on the surface; 0 without tilings of whole parts
-    points : a vertex and a kind for each, see `results.stored`; point_count : how many there are, but for branch points
+    points : a vertex and a kind for each, see `results.report`; point_count : how many there are, but for branch points
     movable_count : of these those that can be dragged
     coarse, coarse_vertices : a sentence about the coarse places, and their vertices
     cost : to an eye

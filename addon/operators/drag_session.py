@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import native
 from ..maps import mapped
-from ..results import points, stored, write
+from ..results import points, report, write
 from ..scene import stored_dials, targets, uv_maps
 from ..solving import jobs
 from ..writing import transaction
@@ -39,8 +39,8 @@ class Session:
             raise ValueError(f"{obj.name}: its dials were changed since its map was made; {AGAIN}")
         own, _ = request.own_texture(dials)
         self._wanted, self._write_options = request.Run(dials, [self.target], own, goes_on=True).only
-        vertices, kinds = stored.points(obj, whole=True)
-        self.are_cones, self._earlier = stored.CONE in kinds, request.moved_points(dials, self.target)
+        vertices, kinds = report.points(obj, whole=True)
+        self.are_cones, self._earlier = report.CONE in kinds, request.moved_points(dials, self.target)
         self._count = points.asked_count(dials)
         self._task = targets.tasks([self.target])[0]
         self.mapped = None
@@ -48,7 +48,7 @@ class Session:
         if not self._tiled(self.mapped):
             reasons = [part.skipped or part.not_seamless for part in self.mapped.parts]
             raise ValueError(f"{obj.name}: {'; '.join(filter(None, reasons))}")
-        if not np.array_equal(self.poles, vertices[kinds == (stored.CONE if self.are_cones else stored.POLE)]):
+        if not np.array_equal(self.poles, vertices[kinds == (report.CONE if self.are_cones else report.POLE)]):
             raise ValueError(f"{obj.name}: its mesh has changed since it was tiled; {AGAIN}")
         self._uv, self._is_shown = uv_maps.read_map(obj.data, self._map), False
         self._parts = [part.component.surface.vertex_index for part in self._tiled(self.mapped)]
@@ -162,7 +162,7 @@ class Session:
             self._is_shown = False
 
     def finish(self, context):
-        """Writes all that belongs to a tiling, and returns the `report.Outcome`."""
+        """Writes all that belongs to a tiling, and returns the `write.Outcome`."""
         self.restore()  # the step puts back what it finds
         options = self._write_options
         if self.mapped is not self._first:

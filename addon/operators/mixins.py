@@ -27,7 +27,7 @@ class Explained:
     needs_library = True
     modes = {"OBJECT": "Object Mode"}  # in which it can run, as menus name them; none for any
     left_modes = PAINTING  # further ones: it leaves them and comes back
-    outcome = None  # the `report.Outcome` of the class's last run, for what has no window to show it
+    outcome = None  # the `write.Outcome` of the class's last run, for what has no window to show it
 
     @classmethod
     def poll(cls, context):
@@ -58,14 +58,14 @@ class Explained:
         return {"CANCELLED"}
 
     def tell(self, outcome):
-        """Reports an `report.Outcome`, and gives what the operator returns."""
+        """Reports a `write.Outcome`, and gives what the operator returns."""
         type(self).outcome = outcome
         for window in bpy.context.window_manager.windows:  # sidebars do not see that there is a report, nor editors UVs
             for area in window.screen.areas:
                 area.tag_redraw()
-        from ..results import report
+        from ..results import write
 
-        problems, notes = report.in_short(outcome.problems), report.in_short(outcome.notes)
+        problems, notes = write.in_short(outcome.problems), write.in_short(outcome.notes)
         if not outcome.done:
             return self.refuse("; ".join(problems) or "No mesh selected")
         for sentence in problems:

@@ -13,7 +13,7 @@ from ..maps import mapped
 from ..maps.mapped import BALANCED, ISLANDS, SEAMLESS, Arrangement, MappedObject, Request
 from ..materials import material, textures, user_texture
 from ..materials.user_texture import AUTOMATIC, IMAGE, MATERIAL
-from ..results import advice, points, stored, symmetric, write
+from ..results import advice, points, report, symmetric, write
 from ..results.write import WriteOptions
 from ..scene import gathering, mesh_io, stored_dials, targets
 from ..solving import jobs
@@ -91,7 +91,7 @@ class Run:
         return targets.objects(self._found)
 
     def write(self, step, job, time_has_passed=False):
-        """Writes the results of the job, in a `transaction.Step` of the objects. Returns the `report.Outcome`."""
+        """Writes the results of the job, in a `transaction.Step` of the objects. Returns the `write.Outcome`."""
         results = targets.align(self._found, job.results)
         if self._is_trial:
             results = list(map(advice.tried, self._found, results))
@@ -294,10 +294,10 @@ def _poles(dials, obj):
 
 def _poles_where_coarse(obj):
     """The poles of the last tiling, and the coarsest vertices of the places that were found."""
-    vertices, kinds = stored.points(obj, whole=True)
-    if stored.POLE not in kinds:
+    vertices, kinds = report.points(obj, whole=True)
+    if report.POLE not in kinds:
         return "auto"
-    poles = {*vertices[kinds == stored.POLE].tolist(), *map(int, stored_dials.made(obj).coarse_vertices.split())}
+    poles = {*vertices[kinds == report.POLE].tolist(), *map(int, stored_dials.made(obj).coarse_vertices.split())}
     return tuple(sorted(vertex for vertex in poles if vertex < len(obj.data.vertices)))
 
 

@@ -9,8 +9,8 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ..results import stored
-from ..results.stored import CONE, POLE, ZERO
+from ..results import report
+from ..results.report import CONE, POLE, ZERO
 from ..scene import mesh_io, stored_dials
 from . import on_screen
 
@@ -85,7 +85,7 @@ def _all_points(objects, dragged):
 
 def _points(obj, dragged):
     """The marks of an object with a map: (n, 3) places in the world, (n,) kinds, (n,) whether the pointer is on it."""
-    vertices, kinds = stored.points(obj)
+    vertices, kinds = report.points(obj)
     if dragged is not None:  # these first, as they are numbered
         kind, others = CONE if dragged.are_cones else POLE, vertices[(kinds == CONE) & (not dragged.are_cones)]
         kinds = np.repeat([kind, ZERO, CONE], [len(dragged.poles), len(dragged.zeros), len(others)])

@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a run did: the report, as JSON in a custom property of each object and in a text datablock, and sentences for
-the user."""
+"""The report of a run, as JSON in a custom property of each object and in a text datablock, which is not read; and what
+an object stores of it beside its dials, and the reading of that."""
 
 import json
-from dataclasses import asdict, dataclass, field, replace
+import math
+import re
+from dataclasses import asdict, replace
 
 import bpy
 import numpy as np
 
-from .. import compatibility, native
-from ..materials import material
 from ..native import holomorph
 from ..scene import gathering, mesh_io, stored_dials, uv_maps
-from . import stored
 
 PROPERTY = "holomorph_report"
 PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
@@ -94,7 +93,7 @@ def _store_on_object(obj, entry):
         parts = [{k: v for k, v in part.items() if k not in MATRICES} for part in entry["components"]]
         text = as_json({**entry, "components": parts})
     obj[PROPERTY] = text
-    stored_dials.know(obj, stored.values(entry), entry["dials"]["stored"])
+    stored_dials.know(obj, values(entry), entry["dials"]["stored"])
 
 
 def store_text(entries):
@@ -111,144 +110,204 @@ def run_report(entries):
     }
 
 
-NAMED = 4  # parts that a message numbers
-MOST_TOLD = 8  # messages at a time
-UNUSED = "your choice was not used"
-OVERLAP = "UV > Select Overlap shows where"
-CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
-
-
-@dataclass
-class Outcome:
-    """What a run did: names of the objects that got maps, sentences for the user, the report's entries."""
-
-    done: list = field(default_factory=list)
-    problems: list = field(default_factory=list)
-    notes: list = field(default_factory=list)
-    entries: list = field(default_factory=list)
-    looks: dict = field(default_factory=dict)  # `material.Look`s for all objects, by whether of tilings, and turned
-    coverings: dict = field(default_factory=dict)  # materials by what they show
-    objects: list = field(default_factory=list)  # that these are for
-
-    @property
-    def tiles(self):
-        """How many tiles all tilings have, a whole number."""
-        return round(sum(tiling["tiles"] for entry in self.entries for tiling in stored.tilings_of(entry)))
-
-    def covering(self, shown, look):
-        """The material that shows a `uv_maps.WrittenMap`, the same for all objects."""
-        key = shown.name, shown.kind, look
-        if key not in self.coverings:
-            self.coverings[key] = material.showing(shown.name, shown.kind == "attribute", look, self.objects)
-        return self.coverings[key]
-
-    def refuse(self, name, sentence):
-        self.problems.append(f"{name}: {sentence}")
-        self.entries.append(refusal_report(name, sentence))
-
-    def skip(self, obj, made):
-        """Adds an object of which no part has a map."""
-        self.problems += _problems(obj, made)
-        self.entries.append(object_report(obj, made))
-
-    def add(self, obj, target, made, written, entry):
-        """Adds an object that got its maps."""
-        self.done.append(obj.name)
-        self.entries.append(entry)
-        self.judge(obj, made, entry)
-        self.problems += _problems(obj, made)
-        if target.polygons.faces is None:
-            self.notes += _modifier_notes(obj, made.solved)
-        extra = sum(w.kind == "attribute" for w in written)
-        if extra:
-            maps_are = "1 map is a corner attribute" if extra == 1 else f"{extra} maps are corner attributes"
-            self.notes.append(f"{obj.name}: {maps_are}, because no UV map slots are free")
-        if obj.override_library is not None:
-            self.notes.append(f"{obj.name} is a library override: its report is lost when the file is reopened")
-        self.notes += [target.note] if target.note else []
-
-    def judge(self, obj, made, entry):
-        """Adds the verdict on an object's map: among the problems where no texture can be put on."""
-        found, whole = holomorph.Verdict(**entry["verdict"]), entry["whole"]["text"]
-        told = ". ".join(filter(None, [whole, *holomorph.quality.verdicts.told(entry)]))
-        (self.notes if found.is_fit else self.problems).append(f"{obj.name}: {told}")
-        limit = holomorph.quality.verdicts.OVERLAPPING[1]
-        overlapping = [
-            str(index)
-            for index, part in enumerate(made.parts, 1)
-            if part.map and (part.map.quality.overlapping_part or 0.0) > limit
-        ]
-        if overlapping:
-            which = _numbered("island", overlapping)
-            which += " overlaps itself" if len(overlapping) == 1 else " overlap themselves"
-            self.problems.append(f"{obj.name}: {which}: {OVERLAP}")
-        count = entry["faces_without_area"]
-        if count:
-            self.problems.append(f"{obj.name}: {count} faces are too small in the map for Blender's single precision")
-
-
-def in_short(sentences):
-    """Sentences about objects, "name: what", as messages: one for all objects of which the same is said, and where
-    there would be more than `MOST_TOLD`, one with their number."""
-    names = {}
-    for sentence in sentences:
-        name, _, what = sentence.partition(": ")
-        names.setdefault(what or sentence, []).append(name if what else "")
-    told = [_of_all(found, what) for what, found in names.items()]
-    if len(told) <= MOST_TOLD:
-        return told
-    return [f"{len(sentences):,} messages; the panel of each object has its own. The first: {sentences[0]}"]
-
-
-def _of_all(names, what):
-    more = f" and {len(names) - 1:,} more" if len(names) > 1 else ""
-    return f"{names[0]}{more}: {what}" if names[0] else what
-
-
-def _problems(obj, made):
-    """What was not done, or not as it was chosen; the parts that are not surfaces. One sentence for each reason."""
-    told = {}
-    for index, part in enumerate(made.parts, 1):
-        reasons = {"skipped": part.skipped, UNUSED: part.component.note}
-        reasons["not seamless"] = part.not_seamless
-        for what, why in reasons.items():
-            if why:
-                told.setdefault((what, why), []).append(str(index))
-    for (what, why), indices in told.items():
-        which = "" if len(made.parts) == 1 else f"{_numbered('part', indices)} of {len(made.parts)}"
-        words = (what, "on" if which else "", which) if what == UNUSED else (which, what)
-        yield f"{obj.name}: {' '.join(filter(None, words))}: {why}"
-    left = {}
-    for refused in made.solved.surface.refused:
-        left.setdefault(native.sentence(refused.reason), []).append(len(refused.faces))
-    yield from (f"{obj.name}: {_faces(sum(counts))} left out: {reason}" for reason, counts in left.items())
-
-
-def _numbered(noun, indices):
-    """A noun with its numbers: "part 3", "parts 1, 4", or "30 parts"."""
-    if len(indices) > NAMED:
-        return f"{len(indices)} {noun}s"
-    return f"{noun}{'s' * (len(indices) > 1)} {', '.join(indices)}"
-
-
-def _faces(count):
-    return "1 face" if count == 1 else f"{count:,} faces"
-
-
-def _modifier_notes(obj, solved):
-    closing = [m.name for m in obj.modifiers if m.type in CLOSING_MODIFIERS and not compatibility.is_auto_smooth(m)]
-    if closing and any(c.surface.boundary_count for c in solved.components):
-        yield f"{obj.name}: modifiers are ignored: switch With Modifiers on if {closing[0]!r} closes the surface"
-
-
 def with_coarse_places(obj, polygons, entry):
     """The report's entry with the places that the main map leaves coarse, where it is uneven, and how many faces are
     too small in it for the single precision of Blender's UV maps."""
     ratios = [part["main_map"]["size_range"] for part in entry["components"] if part["done"]]
-    if all(ratio is not None and ratio <= holomorph.UNEVEN[-1] for ratio in ratios):
+    if None not in ratios and max(ratios) <= holomorph.UNEVEN[-1]:
         return entry | {"coarse_places": [], "faces_without_area": 0}
     distortion = holomorph.distortion
     found = distortion.measure(polygons, uv_maps.read_corners(obj.data, polygons, entry["maps"][0]["name"]))
-    places = stored.coarse_places(obj, polygons, found.density)
+    places = coarse_places(obj, polygons, found.density)
     without_area = int(np.count_nonzero(found.angle >= distortion.COLLAPSED))
     return entry | {"coarse_places": places, "faces_without_area": without_area}
+
+
+SUMMARISED = 8  # parts that a panel shows
+MOST_TILES = 10**9  # in a panel
+SHOWN_PERIODS = 4  # likewise, of each part
+POLE, ZERO, CONE = range(3)  # kinds of points: zeros are branch points
+POINTS = {"poles": POLE, "zeros": ZERO, "cones": CONE}
+OF_PIECES = len(POINTS)  # added to the kind of points that cannot be dragged: of tilings of pieces of parts
+UNSAID = re.compile(r"\b(poles?|cones?|turns)\b")  # what the row of the points and that of the turns show
+TILES_OVERLAP = "Tiles lie on top of each other"
+
+
+def values(entry):
+    """{name: value} of what an object stores, see `operators.dials`, out of the report on its maps."""
+    tilings, dials, asked = tilings_of(entry), entry["dials"], entry["asked"]
+    parts = [part for part in entry["components"] if "tiling" in part]
+    tiles, area = sum(part["tiling"]["tiles"] for part in parts), sum(part["area"] for part in parts)
+    points = list(_points(entry))
+    dots = [kind for _, kind in points if kind % OF_PIECES != ZERO]
+    tile, bake = [holomorph.Verdict(**entry[name]) for name in holomorph.quality.verdicts.PURPOSES]
+    own, places = dials["own"] or {}, entry["coarse_places"]
+    return {
+        "map": entry["maps"][0]["name"],
+        "shape_key": str(entry["shape_key"]),
+        "scale_of": entry.get("scale_of", ""),
+        "is_selection": entry["is_selection"],
+        "size": repr(asked["size"]),
+        "lattice": repr(asked["lattice"]),
+        "together": dials["together"],
+        "own_turns": own.get("turns", 0),
+        "averaged": own.get("averaged", 1),
+        "is_tiled": bool(tilings),
+        "turns": max((tiling["turns"] for tiling in tilings), default=1),
+        "tiles": round(min(tiles, MOST_TILES)),
+        "width": math.sqrt(area / tiles) if tiles > 0 else 0.0,
+        "points": " ".join(f"{vertex} {kind}" for vertex, kind in points),
+        "point_count": len(dots),
+        "movable_count": sum(kind < OF_PIECES for kind in dots),
+        "coarse": coarse_sentence(places) if places else "",
+        "coarse_vertices": " ".join(str(place["vertex"]) for place in places),
+        "cost": cost(entry),
+        "is_fit": tile.is_fit,
+        "is_bake_fit": bake.is_fit and not tilings,
+        "sentence": ", ".join(words for words in tile.sentence.split(", ") if not UNSAID.search(words)),
+        "whole": whole(entry),
+        "bake_sentence": TILES_OVERLAP if tilings else bake.sentence,
+        "numbers": "\n".join(map("\t".join, numbers(entry))),
+        "summary": "\n".join(_summary(entry)),
+    }
+
+
+def tilings_of(entry):
+    """The tilings of parts, and of pieces of parts, in the report of an object."""
+    return [tiling for part in entry["components"] for tiling, _ in _tilings(part)]
+
+
+def _tilings(part):
+    """(a tiling, what is added to the kind of its points) in the report of a part."""
+    pieces = [(tiling, OF_PIECES) for tiling in part.get("tilings", [])]
+    return pieces or ([(part["tiling"], 0)] if "tiling" in part else [])
+
+
+def _points(entry):
+    """(vertex, kind) of the points of tilings, those of each kind together, in the order of the parts."""
+    tilings = [each for part in entry["components"] for each in _tilings(part)]
+    for name, kind in POINTS.items():
+        for tiling, more in tilings:
+            yield from ((vertex, kind + more) for vertex in tiling[name])
+
+
+def points(obj, whole=False):
+    """((n,) vertices, (n,) kinds) of the points of tilings; whole : of those of whole parts, which can be dragged"""
+    made = stored_dials.made(obj)
+    vertices, kinds = np.array(made.points.split() if made else [], np.int64).reshape(-1, 2).T
+    is_taken = kinds < OF_PIECES if whole else kinds >= 0
+    return vertices[is_taken], kinds[is_taken] % OF_PIECES
+
+
+def is_edited(obj):
+    """Whether the mesh of an object was edited since its map was made."""
+    made = stored_dials.made(obj)
+    return made is not None and made.shape_key != str(mesh_io.shape_key(obj.data))
+
+
+def cost(entry):
+    """That of the maps of an object to an eye, of its report."""
+    found = entry["whole"]["cost"]
+    return math.inf if found is None else found
+
+
+def whole(entry):
+    """The summary of a whole object, before details: whose scale counted, kinds of maps, what was left out, cut and
+    joined; "" for one part of which there is nothing to say."""
+    scale = [f"in the scale of {entry['scale_of']}"] if "scale_of" in entry else []
+    text = "; ".join([*scale, entry["whole"]["text"]]).removesuffix("; ")
+    return text[:1].upper() + text[1:]
+
+
+def numbers(entry):
+    """(name, value) of what is measured over the whole object, and the sums of what is counted."""
+    measured, whole = [part["main_map"] for part in entry["components"] if part["done"]], entry["whole"]
+    size = math.inf if whole["size_range"] is None else whole["size_range"]
+    return [
+        ("Size range", f"{size:.3g} : 1" if size < 1000 else "1000+"),
+        ("Angle distortion", f"{whole['mean_angle']:.2f} : 1"),
+        ("Flipped triangles", str(sum(one["flipped_triangles"] for one in measured))),
+        ("Collapsed triangles", str(sum(one["collapsed_triangles"] for one in measured))),
+    ]
+
+
+def _summary(entry):
+    """Short lines for the panel."""
+    parts, count = entry["components"], len(entry["maps"])
+    yield "1 map" if count == 1 else f"{count} maps"
+    yield from (cut["text"][0].upper() + cut["text"][1:] for cut in entry["repairs"]["cuts"])
+    if joined := entry["repairs"]["joined_vertices"]["count"]:
+        yield f"{joined:,} vertices at the places of others were joined"
+    for index, part in enumerate(parts[:SUMMARISED], 1):
+        yield f"Part {index}: {_topology(part)}" + ("" if part["done"] else ", skipped")
+        if part["done"]:
+            yield from (f"    {line}" for line in _result_lines(part))
+    if len(parts) > SUMMARISED:
+        yield f"... {holomorph.report.part_count(parts[SUMMARISED:])} more parts in the report"
+
+
+def _topology(part):
+    if "genus" not in part:
+        return "no surface"
+    loops, genus = part["boundary_count"], f"genus {part['genus']}"
+    return genus if not loops else f"{genus}, {loops} boundary loop{'s' if loops > 1 else ''}"
+
+
+def _result_lines(part):
+    yield part["main_map"]["verdict"]["sentence"]
+    yield from _tiling_lines(part["tiling"]) if "tiling" in part else [part["description"]]
+    yield f"angle distortion {part['main_map']['mean_angle']:.4f}"
+    if part.get("modulus") is not None:
+        yield f"modulus {part['modulus']:.6g}"
+        if part.get("modulus_bounds"):
+            yield "    between {:.6g} and {:.6g}".format(*part["modulus_bounds"])
+    if part["genus"] == 1 and part["boundary_count"] == 0 and part.get("period_matrix"):
+        real, imaginary = part["period_matrix"][0][0]
+        yield f"tau = {round(real, 4) + 0.0:.4f} + {imaginary:.4f} i"
+
+
+def _tiling_lines(tiling):
+    if tiling["turns"] != 1:
+        yield f"size range {tiling['size_range']:.3g}"
+        yield holomorph.quality.verdicts.special(0, tiling["turns"], len(tiling["cones"]), tiling["lines"])
+        return
+    yield f"angle distortion added by whole tiles: {tiling['added_distortion']:.4f}"
+    yield f"size range {tiling['size_range']:.3g}"
+    yield f"poles: {len(tiling['poles'])}, branch points: {len(tiling['zeros'])}"
+    if tiling["periods"]:
+        shown = ", ".join(f"({u}, {v})" for u, v in tiling["periods"][:SHOWN_PERIODS])
+        yield f"periods: {shown}" + (", ..." if len(tiling["periods"]) > SHOWN_PERIODS else "")
+
+
+MOST_TIMES = 200  # beyond, the number does not matter
+SIDES = (("the -X side", "the +X side"), ("the front", "the back"), ("the bottom", "the top"))  # of an object
+
+
+def coarse_places(obj, polygons, density):
+    """The `holomorph.coarse_places` of an object as entries of a report, each with a name."""
+    found = holomorph.coarse_places(polygons, density)
+    return [{"name": _place_name(obj, polygons, place.vertex), **vars(place)} for place in found]
+
+
+def _place_name(obj, polygons, vertex):
+    """The vertex group that is strongest at a vertex; without groups, where the vertex lies on the object."""
+    groups = [group for group in obj.data.vertices[vertex].groups if group.weight > 0]
+    if groups:
+        return obj.vertex_groups[max(groups, key=lambda group: group.weight).group].name
+    size = np.maximum(np.ptp(polygons.vertices, axis=0), np.finfo(float).tiny)
+    offset = (polygons.vertices[vertex] - polygons.vertices.mean(axis=0)) / size
+    axis = int(np.argmax(np.abs(offset)))
+    return SIDES[axis][int(offset[axis] > 0)]
+
+
+def coarse_sentence(found):
+    """Such as "the top and 3 more places are 40 times coarser than the rest"; of places in a report."""
+    names = list(dict.fromkeys(place["name"] for place in found))
+    others = len(found) - 1
+    words = names[0] if others == 0 else f"{names[0]} and {others} more place{'s' if others > 1 else ''}"
+    if len(found) == 2 and len(names) == 2:
+        words = f"{names[0]} and {names[1]}"
+    times = max(place["times"] for place in found)
+    factor = f"{times:.0f}" if times < MOST_TIMES else f"over {MOST_TIMES}"
+    text = f"{words} {'is' if others == 0 else 'are'} {factor} times coarser than the rest"
+    return text[0].upper() + text[1:]

@@ -158,7 +158,7 @@ def test_an_error_in_the_middle_leaves_the_map_and_says_that_the_dial_is_ahead(m
     def fail(*_arguments, **_options):
         raise ValueError("no room")
 
-    monkeypatch.setattr(module("results.write"), "with_coarse_places", fail)
+    monkeypatch.setattr(module("results.report"), "with_coarse_places", fail)
     obj.holomorph_map.evenness = 1.0
     assert everything(obj) == before and obj["holomorph_report"] == report
     assert obj.holomorph_map.refused == "no room" and obj.holomorph_map.evenness == 1.0 and stored_dials.is_behind(obj)

@@ -10,7 +10,7 @@ from drawn_panel import drawn
 from loaded_addon import module
 from scenes import everything, mesh_io, mesh_object, run, select, shown_scale, sphere_arrays, stored_report, torus, uv
 
-stored, lines, viewport = map(module, ("results.stored", "interface.lines", "materials.material"))
+report, lines, viewport = map(module, ("results.report", "interface.lines", "materials.material"))
 
 
 def spikes(subdivisions=4):
@@ -126,7 +126,7 @@ def test_an_even_map_is_called_so_in_a_line():
 def test_after_an_edit_the_verdict_is_marked_as_of_before(edit):
     obj = torus()
     run(main="SEAMLESS")
-    assert not stored.is_edited(obj)
+    assert not report.is_edited(obj)
     edited = bmesh.new()
     edited.from_mesh(obj.data)
     edited.faces.ensure_lookup_table()
@@ -136,7 +136,7 @@ def test_after_an_edit_the_verdict_is_marked_as_of_before(edit):
         bmesh.ops.delete(edited, geom=edited.faces[:1], context="FACES")
     edited.to_mesh(obj.data)
     edited.free()
-    assert stored.is_edited(obj)
+    assert report.is_edited(obj)
     layout = drawn(obj, is_edited=True)
     assert layout.texts[0].startswith("Before the") and "CHECKMARK" not in layout.icons
 
@@ -181,7 +181,7 @@ def test_warnings_of_one_kind_are_one_line():
     parts = [SimpleNamespace(skipped="no room", component=SimpleNamespace(note=""), not_seamless="")] * 239
     left_out = [SimpleNamespace(faces=[1], reason="without area")] * 7
     made = SimpleNamespace(parts=parts, solved=SimpleNamespace(surface=SimpleNamespace(refused=left_out)))
-    told = list(module("results.report")._problems(SimpleNamespace(name="Kit"), made))
+    told = list(module("results.write")._problems(SimpleNamespace(name="Kit"), made))
     assert told == ["Kit: 239 parts of 239 skipped: no room", "Kit: 7 faces left out: without area"]
 
 
@@ -203,7 +203,7 @@ RING = "Ring: To tile: even. To bake: nothing overlaps"
 
 @pytest.mark.parametrize(("level", "told"), [("fair", ([], [RING])), ("poor", ([RING], []))])
 def test_a_poor_map_is_a_warning(level, told):
-    outcome = module("results.report").Outcome()
+    outcome = module("results.write").Outcome()
     said = {"verdict": {"level": level, "sentence": "Even"}, "bake": {"level": "good", "sentence": "Nothing overlaps"}}
     entry = said | {"components": [], "faces_without_area": 0, "whole": {"text": ""}}
     outcome.judge(SimpleNamespace(name="Ring"), SimpleNamespace(parts=[]), entry)
@@ -242,8 +242,8 @@ def test_a_place_has_the_name_of_its_vertex_group():
     (place,) = stored_report(obj)["coarse_places"]
     assert place["name"] == f"arm.{'XYZ'[spiked(obj, place)[0]]}"
     place["name"] = "arm.L"
-    assert stored.coarse_sentence([place | {"times": 40.2}]) == "Arm.L is 40 times coarser than the rest"
-    assert stored.coarse_sentence([place | {"times": 999}] * 3).startswith("Arm.L and 2 more places are over 200 times")
+    assert report.coarse_sentence([place | {"times": 40.2}]) == "Arm.L is 40 times coarser than the rest"
+    assert report.coarse_sentence([place | {"times": 999}] * 3).startswith("Arm.L and 2 more places are over 200 times")
 
 
 def test_faces_that_single_precision_loses_are_told():
@@ -308,7 +308,7 @@ def test_poles_are_off_the_boundary():
     fine[:] = polygons.vertices[polygons.corner_vertices][:, [axis - 1, axis - 2]]
     is_far = polygons.vertices[polygons.corner_vertices, axis] > 1.5
     octaves = module("native").load().distortion.measure(polygons, np.where(is_far[:, None], 0.01 * fine, fine)).density
-    found = stored.coarse_places(obj, polygons, octaves)
+    found = report.coarse_places(obj, polygons, octaves)
     assert found and not any(on_plane[place["vertex"]] for place in found)
 
 

@@ -448,7 +448,7 @@ def test_many_objects_give_few_messages(capfd):
     assert run() == {"FINISHED"}
     said = [line for line in capfd.readouterr().out.splitlines() if ": " in line]
     assert len(said) == 1 and said[0].startswith(f"Warning: {objs[0].name} and 11 more: To tile: ")
-    in_short, different = module("results.report").in_short, [f"Box {k}: {k} faces left out" for k in range(9)]
+    in_short, different = module("results.write").in_short, [f"Box {k}: {k} faces left out" for k in range(9)]
     assert in_short(different[:8]) == different[:8] and in_short([]) == []
     assert in_short(different) == [
         "9 messages; the panel of each object has its own. The first: Box 0: 0 faces left out"

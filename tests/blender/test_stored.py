@@ -19,10 +19,10 @@ from scenes import (
     uv,
 )
 
-stored_dials, stored, bake, geometry, drag, follow, marks_view = map(
+stored_dials, report, bake, geometry, drag, follow, marks_view = map(
     module,
     (
-        *("scene.stored_dials", "results.stored", "baking.bake", "things.geometry"),
+        *("scene.stored_dials", "results.report", "baking.bake", "things.geometry"),
         *("operators.drag", "operators.follow", "overlays.marks_view"),
     ),
 )
@@ -103,7 +103,7 @@ def known(obj):
         "panel": (layout.texts, layout.buttons, layout.icons),
         "dots": (points.tolist(), kinds.tolist()),
         "tiling": (corners.tolist(), lattice),
-        "states": (stored.is_edited(obj), stored_dials.is_behind(obj)),
+        "states": (report.is_edited(obj), stored_dials.is_behind(obj)),
         "polls": (drag.HOLOMORPH_OT_drag_poles.why_not(bpy.context), bake.why_not(obj)),
     }
 
@@ -152,9 +152,9 @@ def test_what_is_known_is_that_of_the_report():
     obj = with_poles()
     entry, made = stored_report(obj), obj.holomorph_map.made
     (tiling,) = (part["tiling"] for part in entry["components"])
-    vertices, kinds = stored.points(obj)
-    assert vertices[kinds == stored.POLE].tolist() == tiling["poles"]
-    assert vertices[kinds == stored.ZERO].tolist() == tiling["zeros"]
+    vertices, kinds = report.points(obj)
+    assert vertices[kinds == report.POLE].tolist() == tiling["poles"]
+    assert vertices[kinds == report.ZERO].tolist() == tiling["zeros"]
     assert made.map == obj.data.uv_layers[0].name and made.cost == pytest.approx(entry["whole"]["cost"])
     assert stored_dials.read(made.dials) == entry["dials"]["stored"] == stored_dials.of(obj)
 
@@ -190,7 +190,7 @@ def test_a_map_of_which_nothing_is_known_asks_for_the_button():
     obj.holomorph_map.property_unset("made")
     select(obj)
     assert stored_dials.made(obj) is None and stored_dials.known(obj) == () and not follow.follows(obj)
-    assert not stored.is_edited(obj) and not stored_dials.is_behind(obj) and not len(stored.points(obj)[0])
+    assert not report.is_edited(obj) and not stored_dials.is_behind(obj) and not len(report.points(obj)[0])
     assert drag.HOLOMORPH_OT_drag_poles.why_not(bpy.context) == "Select an object whose map has points"
     assert "press Seamless Tiling first" in bake.why_not(obj)
     assert module("operators.mapping").press(obj) == {"FINISHED"} and stored_dials.made(obj)

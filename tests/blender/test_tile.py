@@ -34,7 +34,7 @@ from scenes import (
     written,
 )
 
-stored = module("results.stored")
+report = module("results.report")
 
 
 @pytest.fixture
@@ -79,8 +79,8 @@ def tile(**options):
 
 
 def marks(obj):
-    vertices, kinds = stored.points(obj)
-    return vertices.tolist(), (kinds == stored.POLE).tolist()
+    vertices, kinds = report.points(obj)
+    return vertices.tolist(), (kinds == report.POLE).tolist()
 
 
 def whole_jumps(obj):

@@ -10,11 +10,11 @@ from scenes import (
     everything,
     mesh_object,
     polygon_arrays,
+    report,
     run,
     select,
     shown_scale,
     sphere_arrays,
-    stored,
     stored_report,
     torus,
     turned_jumps,
@@ -460,7 +460,7 @@ def test_again_and_undone():
     tile(turns="QUARTER", tiles=100)
     first = uv(obj)
     tile(turns="NONE")
-    assert stored.CONE not in stored.points(obj)[1]
+    assert report.CONE not in report.points(obj)[1]
     tile(turns="QUARTER", tiles=100)
     assert np.array_equal(uv(obj), first)
     bpy.ops.uv.holomorphic_remove_maps()

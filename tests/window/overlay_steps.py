@@ -106,8 +106,8 @@ def poles():
     points = addon("scene.mesh_io").world_points(obj)
     corners = {"pole": (0, 1, 0.4), "behind": (0, -1, -0.4), "branch point": (1, 0, 0.4)}
     marked = {name: int(np.argmin(np.linalg.norm(points - place, axis=1))) for name, place in corners.items()}
-    stored = addon("results.stored")
-    kinds = {"pole": stored.POLE, "behind": stored.POLE, "branch point": stored.ZERO}
+    report = addon("results.report")
+    kinds = {"pole": report.POLE, "behind": report.POLE, "branch point": report.ZERO}
     addon("scene.stored_dials").made(obj).points = " ".join(f"{marked[name]} {kind}" for name, kind in kinds.items())
     places = {name: projected(points[vertex]) for name, vertex in marked.items()}
     unit, (x, y) = bpy.context.preferences.system.ui_scale, addon("overlays.marks_view").LEGEND

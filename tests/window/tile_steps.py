@@ -43,9 +43,9 @@ def note_stages():
 
 
 def poles():
-    stored = addon("results.stored")
-    vertices, kinds = stored.points(obj())
-    return vertices[kinds == stored.POLE].tolist()
+    report = addon("results.report")
+    vertices, kinds = report.points(obj())
+    return vertices[kinds == report.POLE].tolist()
 
 
 def on_screen(vertex):

@@ -165,7 +165,7 @@ def then(count=1, main="AUTOMATIC"):
 
 
 def written(obj, **options):
-    """The `report.Outcome` of maps as in `then`."""
+    """The `write.Outcome` of maps as in `then`."""
     names = ("scene.targets", "solving.jobs", "results.write", "writing.transaction")
     targets, jobs, write, transaction = (importlib.import_module(f"holomorph_addon.{name}") for name in names)
     found = targets.collect([obj])

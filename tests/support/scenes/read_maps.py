@@ -7,7 +7,7 @@ import numpy as np
 
 uv_maps = importlib.import_module("holomorph_addon.scene.uv_maps")
 mesh_io = importlib.import_module("holomorph_addon.scene.mesh_io")
-stored = importlib.import_module("holomorph_addon.results.stored")
+report = importlib.import_module("holomorph_addon.results.report")
 native = importlib.import_module("holomorph_addon.native")
 
 
@@ -17,8 +17,8 @@ def uv(obj, name="Holomorphic"):
 
 def stored_poles(obj):
     """Vertices."""
-    vertices, kinds = stored.points(obj)
-    return vertices[kinds == stored.POLE].tolist()
+    vertices, kinds = report.points(obj)
+    return vertices[kinds == report.POLE].tolist()
 
 
 def stored_report(obj):
