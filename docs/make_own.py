@@ -21,7 +21,7 @@ import preview_scene
 import addon
 from addon import native
 from addon.materials.periodic import mix, smoothstep
-from addon.scene import gathering, image_io, mesh_io, uv_maps
+from addon.scene import image_io, mesh_io, uv_maps
 
 RESOLUTION, SAMPLES = 560, 32
 MAP = uv_maps.MAIN_MAP
@@ -70,7 +70,7 @@ def project(obj, size):
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.uv.smart_project(correct_aspect=False)  # our material itself shows the image as high as it is
     bpy.ops.object.mode_set(mode="OBJECT")
-    polygons = mesh_io.read_polygons(obj.data, gathering.linear(obj))
+    polygons = mesh_io.read(obj)
     uv = uv_maps.read_corners(obj.data, polygons, MAP)
     factor = 1 / (size * native.load().distortion.length_ratio(polygons, uv))
     uv_maps.overwrite_map(obj.data, polygons, MAP, (factor * uv).astype(np.float32))

@@ -21,7 +21,7 @@ import preview_scene
 import addon
 from addon import compatibility
 from addon.materials.patterns import TEXTURES
-from addon.scene import gathering, image_io, mesh_io
+from addon.scene import image_io, mesh_io
 from addon.things import geometry
 
 RESOLUTION, SAMPLES = 520, 24
@@ -55,7 +55,7 @@ def image_of(values):
 def projected(obj, values, side, depth):
     """An object like `obj`, fine everywhere, raised by projections."""
     library = addon.native.load()
-    polygons = mesh_io.read_polygons(obj.data, gathering.linear(obj))
+    polygons = mesh_io.read(obj)
     vertices, triangles = _fine(polygons.surface(strict=False))
     surface = library.Surface(vertices, triangles)
     normals = library.tiles.relief_normals.normals(surface)[0]

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from .. import native
-from ..scene import gathering, stored_dials, targets, uv_maps
+from ..scene import gathering, mesh_io, stored_dials, uv_maps
 from ..solving.jobs import Work
 from . import atlas, bake_scene
 from .channels import CHANNELS, ONE, BakeOptions
@@ -129,7 +129,7 @@ class BakeWork(Work):
 def _unfolded(context, group, options):
     """The `Baked` of some objects, without images yet. @throws ValueError"""
     metres = context.scene.unit_settings.scale_length
-    polygons = [targets.read(obj) for obj in group]
+    polygons = [mesh_io.read(obj) for obj in group]
     in_metres = [replace(one, vertices=one.vertices * metres) for one in polygons]
     try:
         found = atlas.make(context, in_metres, options)

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ..materials import material, nodes
-from ..results import heat, restore, tags
+from ..results import heat, tags
 from ..results.write import Outcome
 from ..scene import gathering, uv_maps
 from ..writing import transaction
@@ -54,7 +54,7 @@ def _write_group(group):
 
 
 def _write_object(obj, polygons, uv, made):
-    restore.remember(obj.data)
+    uv_maps.remember_shown(obj.data)
     name = uv_maps.write_bake_map(obj.data, polygons, uv)
     uv_maps.show_map(obj.data, name)
     heat.refresh(obj)

@@ -66,6 +66,8 @@ class MappedObject:
     @property
     def is_astray(self):
         """Whether other poles were moved than those that were dragged: with other dials, others are placed."""
+        if not self.points:
+            return False
         poles = [part.vertices(part.tiling.poles) for part in self.tiled if part.tiling]
         return not set(self.points) <= set(np.concatenate([*poles, ()]).tolist())
 

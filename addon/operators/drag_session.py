@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import native
 from ..maps import mapped
-from ..results import points, report, write
+from ..results import report, write
 from ..scene import stored_dials, targets, uv_maps
 from ..solving import jobs
 from ..writing import transaction
@@ -41,7 +41,7 @@ class Session:
         self._wanted, self._write_options = request.Run(dials, [self.target], own, goes_on=True).only
         vertices, kinds = report.points(obj, whole=True)
         self.are_cones, self._earlier = report.CONE in kinds, request.moved_points(dials, self.target)
-        self._count = points.asked_count(dials)
+        self._count = stored_dials.asked_count(dials)
         self._task = targets.tasks([self.target])[0]
         self.mapped = None
         self.mapped = self._first = self._wanted = self.made({})
@@ -172,9 +172,9 @@ class Session:
 
     @property
     def _points(self):
-        """The `points.Points` of the map as it is now; those on maps with other turns stay."""
+        """The `stored_dials.Points` of the map as it is now; those on maps with other turns stay."""
         asked = self.mapped.request
-        earlier = self._earlier or points.Points(len(self.target.find().data.vertices), self._count)
+        earlier = self._earlier or stored_dials.Points(len(self.target.find().data.vertices), self._count)
         if self.are_cones:
             return replace(earlier, cones=tuple((asked.cones or {}).items()))
         base = asked.poles if isinstance(asked.poles, tuple) else ()

@@ -21,16 +21,16 @@ class _MapsOperator(Dials, OfOneRun, OnMeshes, WorkOperator):
         from . import request
 
         objects = gathering.mesh_objects(context)
-        self._start_with(stored_dials.of(objects[0]) | self.asked)
+        self._start_with_dials_of(objects[0])
         self._own, self._why_not_own = request.own_texture(self)
         found = request.collect(objects, self)
         self._run = request.Run(self, found, self._own, self.is_trial)
         self.is_trial = False  # what the redo panel asks for later is written in any case
 
-    def _start_with(self, values):
-        """Takes over these dials beside those that the caller has set. What is set now, the redo panel keeps."""
+    def _start_with_dials_of(self, obj):
+        """Takes over dials beside those that the caller has set. What is set now, the redo panel keeps."""
         given = [name for name in Dials.__annotations__ if self.properties.is_property_set(name)]
-        for name, value in stored_dials.beside(given, values).items():
+        for name, value in stored_dials.beside(given, stored_dials.of(obj) | self.asked).items():
             if name in Dials.__annotations__:
                 setattr(self, name, value)
 

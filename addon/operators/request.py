@@ -13,9 +13,10 @@ from ..maps import mapped
 from ..maps.mapped import BALANCED, ISLANDS, SEAMLESS, Arrangement, MappedObject, Request
 from ..materials import material, textures, user_texture
 from ..materials.user_texture import AUTOMATIC, IMAGE, MATERIAL
-from ..results import advice, points, report, symmetric, write
+from ..native import holomorph
+from ..results import report, symmetric, write
 from ..results.write import WriteOptions
-from ..scene import gathering, mesh_io, stored_dials, targets
+from ..scene import mesh_io, stored_dials, targets
 from ..solving import jobs
 
 FACES = {"AUTOMATIC": jobs.SELECTED, "FACES": jobs.ASKED}  # by the use of the selection
@@ -94,10 +95,23 @@ class Run:
         """Writes the results of the job, in a `transaction.Step` of the objects. Returns the `write.Outcome`."""
         results = targets.align(self._found, job.results)
         if self._is_trial:
-            results = list(map(advice.tried, self._found, results))
+            results = list(map(_tried, self._found, results))
         outcome = write.write(step, self._found, results, self._write_options, time_has_passed)
         outcome.notes += filter(None, [*self._notes, *_why_no_rows(self._found, results)] if outcome.done else [])
         return outcome
+
+
+def _tried(target, made):
+    """What was `mapped` for a `targets.Target` as a panel advises; a refusal where its map costs an eye no less than
+    that of before. It is tried when it is asked for, since it takes as long as another map."""
+    obj = target.find()
+    before = stored_dials.made(obj)
+    if not before or not isinstance(made, MappedObject) or not made.done or report.is_edited(obj):
+        return made
+    after = report.object_report(obj, made)
+    if np.float32(report.cost(after)) < before.cost:  # in the precision of properties
+        return made
+    return holomorph.Error(f"it would be no better: {after['verdict']['sentence']}; the map stays as it is")
 
 
 def collect(objects, dials):
@@ -188,12 +202,8 @@ def _tiling(dials, target, own):
 
 
 def moved_points(dials, target):
-    """The `points.Points` of an object that count, or None."""
-    if target.makes_object or dials.poles in points.BY_SELECTION:
-        return None
-    obj = target.find()
-    text = stored_dials.of(obj)[stored_dials.MOVED]
-    return points.of(text, dials, obj.data) if text else None
+    """The `stored_dials.Points` of an object that count, or None."""
+    return None if target.makes_object else stored_dials.points_of(target.find(), dials)
 
 
 def _turned(dials, target, own, wanted):
@@ -319,7 +329,7 @@ def _direction(dials, obj):
     translation."""
     if dials.direction in ("NONE", "UPRIGHT"):
         return None if dials.direction == "NONE" else "upright"
-    linear = gathering.linear(obj)
+    linear = mesh_io.linear(obj)
     if dials.direction in AXES:
         axis = linear[:, AXES.index(dials.direction)]
         if not _has_length(axis):

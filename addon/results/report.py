@@ -70,8 +70,8 @@ def as_json(value, indent=None):
 def store(obj, entry):
     """Stores the report on an object that was mapped, and what is known of its map; and on others with its mesh, whose
     scale may be another; on so many of these that a file stays small."""
-    others = gathering.others(obj)
     _store_on_object(obj, entry)
+    others = gathering.others(obj)
     for other in others[:MOST_OTHERS]:
         scale = {"scale_of": obj.name} if gathering.has_other_scale(obj, other) else {}
         _store_on_object(other, {**entry, "object": other.name, **scale})

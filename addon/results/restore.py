@@ -5,23 +5,10 @@ from ..materials import material
 from ..scene import gathering, stored_dials, uv_maps
 from . import heat, report, tags
 
-BEFORE = "holomorph_shown_before"  # custom property of a mesh: the UV maps that were active, in editors and for renders
-
-
-def remember(mesh):
-    """Notes which active maps are not ours. @pre ours are not yet removed or written"""
-    before = dict(mesh.get(BEFORE, {}))
-    active, rendered = mesh.uv_layers.active, next((layer for layer in mesh.uv_layers if layer.active_render), None)
-    for use, layer in (("active", active), ("rendered", rendered)):
-        if layer is not None and layer.name not in (*uv_maps.own_maps(mesh), uv_maps.bake_map(mesh)):
-            before[use] = layer.name
-    if before:
-        mesh[BEFORE] = before
-
 
 def is_possible(obj):
     """Whether something is covered, or another map was active."""
-    return material.is_covered(obj) or BEFORE in obj.data
+    return material.is_covered(obj) or uv_maps.BEFORE in obj.data
 
 
 def restore(obj):
@@ -38,18 +25,8 @@ def _unbake(obj):
 
 
 def _uncover(obj):
-    mesh = obj.data
     found = [material.uncover(user) for user in (obj, *gathering.others(obj))]
-    before = mesh.get(BEFORE)
-    if before is None:
-        return any(found)
-    active, rendered = (mesh.uv_layers.get(before.get(use, "")) for use in ("active", "rendered"))
-    if active is not None:
-        mesh.uv_layers.active = active
-    if rendered is not None:
-        rendered.active_render = True
-    del mesh[BEFORE]
-    return True
+    return uv_maps.show_remembered(obj.data) or any(found)
 
 
 def remove_maps(step, obj):

@@ -13,7 +13,7 @@ from ..native import holomorph
 from ..scene import gathering, mesh_io, stored_dials, targets, uv_maps
 from ..solving.jobs import REFUSALS
 from ..writing import transaction
-from . import heat, points, report, restore, tags
+from . import heat, report, tags
 
 NAMED = 4  # parts that a message numbers
 MOST_TOLD = 8  # messages at a time
@@ -75,24 +75,25 @@ def _why_not(target, result, time_has_passed):
 
 
 def _write_object(step, outcome, target, made, options):
-    obj, polygons = target.find(), target.polygons
+    obj, sharers, polygons = target.find(), target.find_sharers(), target.polygons
     if target.makes_object:
         obj = tags.modifier_result(step, obj)
         outcome.objects.append(obj)
     if made.main == mapped.ISLANDS:
         made = packing.packed(step.context, made)
-    restore.remember(obj.data)
+    uv_maps.remember_shown(obj.data)
     written, shown, new_seams = _write_maps(obj.data, polygons, made, options)
     if options.checker:
         look = _look(made, options, shown is written[0] and bool(made.tiled))
         look = outcome.looks.setdefault((look.is_tiling, look.is_turned), look)
         covering = outcome.covering(shown, look)
-        for each in (obj, *target.find_sharers()):
+        for each in (obj, *sharers):
             material.cover(each, covering)
     heat.refresh(obj)
     obj.data.update()
-    for each in (obj, *gathering.others(obj)):
-        stored_dials.write(each, points.kept(options.stored, made, obj.data))
+    users, kept = (obj, *gathering.others(obj)), stored_dials.kept(options.stored, made.request.poles, obj.data)
+    for user in users:
+        stored_dials.write(user, kept)
     options = replace(options, stored=stored_dials.of(obj))
     entry = report.object_report(obj, made, written, new_seams, options)
     entry = report.with_coarse_places(obj, polygons, entry)

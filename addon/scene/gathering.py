@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 
 from .. import compatibility
+from . import mesh_io
 
 SAME_SCALE = 1e-5  # relative: matrices of objects are float32
 IMPORTER_HELPERS = "glTF_not_exported"  # the collection of the glTF importer
@@ -64,13 +65,8 @@ def has_other_scale(obj, other):
     return not np.allclose(_metric(obj), _metric(other), rtol=0, atol=SAME_SCALE)
 
 
-def linear(obj):
-    """(3, 3) linear part of the object's matrix, without its translation."""
-    return np.array(obj.matrix_world, np.float64)[:3, :3]
-
-
 def _metric(obj):
     """How the object's matrix changes shapes: equal for matrices that differ by rotation, reflection or factor."""
-    metric = linear(obj).T @ linear(obj)
+    metric = mesh_io.linear(obj).T @ mesh_io.linear(obj)
     size = np.trace(metric)
     return metric / size if size > 0 else metric

@@ -56,6 +56,14 @@ class Polygons:
         is_one[faces] = True
         return np.repeat(is_one, np.diff(self.face_offsets))
 
+    def of_faces(self, mask):
+        """Those of some of the faces, (#F,) bool."""
+        faces, corners = (np.flatnonzero(one).astype(np.int32) for one in (mask, self.has_corner_in(mask)))
+        offsets = np.zeros(len(faces) + 1, np.int32)
+        np.cumsum(np.diff(self.face_offsets)[faces], out=offsets[1:])
+        loops = corners if self.loops is None else self.loops[corners]
+        return Polygons(self.vertices, self.corner_vertices[corners], offsets, loops, faces)
+
     def of_corners(self, values):
         """Values of the mesh's loops in the order of the corners."""
         return values if self.loops is None else values[self.loops]
@@ -102,6 +110,17 @@ def read_polygons(mesh, linear):
     return Polygons(vertices, corner_vertices, offsets, loops)
 
 
+def read(obj, mask=None):
+    """The polygons as they are seen: with the object's scale, without modifiers; some of them for a mask."""
+    polygons = read_polygons(obj.data, linear(obj))
+    return polygons if mask is None else polygons.of_faces(mask)
+
+
+def linear(obj):
+    """(3, 3) linear part of the object's matrix, without its translation."""
+    return np.array(obj.matrix_world, np.float64)[:3, :3]
+
+
 def shape_key(mesh):
     """A number that changes when the mesh is edited: out of its counts and positions."""
     counts = [len(mesh.vertices), len(mesh.edges), len(mesh.polygons), len(mesh.loops)]
@@ -127,13 +146,13 @@ def is_attribute(mesh, name, domain, kind):
     return attribute is not None and (attribute.domain, attribute.data_type) == (domain, kind)
 
 
-def read_shown(obj, linear, own):
+def read_shown(obj, own):
     """(`Polygons`, (n, 2) vertices of the seams, those of edges marked sharp, whether the faces are those of `own`) of
     an object with its modifiers as the viewport shows them."""
     shown = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = shown.to_mesh()
     try:
-        found = read_polygons(mesh, linear)
+        found = read_polygons(mesh, linear(obj))
         return found, *(marked_edges(mesh, mark) for mark in (SEAM, SHARP)), found.has_faces_of(own)
     finally:
         shown.to_mesh_clear()

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The dials that objects store: a property group of each, from which buttons start and to which runs write back. In it
-lies another one, of what was made of them."""
+lies another one, of what was made of them. One of the dials is the text of the points that were dragged or selected."""
 
+import json
+import math
 from contextlib import ExitStack, contextmanager
+from dataclasses import asdict, dataclass, replace
 
 import bpy
 
@@ -10,7 +13,9 @@ NAME = "holomorph_map"  # of the group, a property of objects
 OF_BLENDER = {"rna_type", "name"}  # properties of every group
 RULED_OUT = {"tiles": "size", "size": "tiles"}  # the one that is given counts alone
 MADE = "made"  # of what is known of the map, a property of the group
-MOVED = "moved"  # the name of the dial that is each object's own: points that were dragged
+MOVED = "moved"  # the name of the dial that is each object's own: the text of its `Points`
+BY_SELECTION = {"SELECTED", "COARSE"}  # values of the dial of the points that are for one run: their points are moved
+ROUNDING = 1e-6  # of angles, in turns
 
 _quiet = []  # not empty while dials are written and nothing is to follow
 
@@ -117,6 +122,77 @@ def choose(obj, values):
 def forget(obj):
     """All dials are automatic again."""
     obj.property_unset(NAME)
+
+
+@dataclass(frozen=True)
+class Points:
+    """The points of a map, its poles and cones, that were dragged or selected on one object. On another mesh, or with
+    another number of points asked for, they do not count.
+
+    vertices : how many its mesh has
+    count : of points on each part, as it was asked for; -1 for automatic
+    poles : vertices of those on the parts of which one was moved, where they are now
+    base : the vertices where these were before, if they were chosen; none if they were placed
+    moves : (index of a pole in the tiling of its part, vertex to which it was moved)
+    cones : (vertex, angle in full turns)
+    """
+
+    vertices: int
+    count: int
+    poles: tuple = ()
+    base: tuple = ()
+    moves: tuple = ()
+    cones: tuple = ()
+
+    @property
+    def text(self):
+        """As a dial of the object."""
+        return json.dumps(asdict(self))
+
+    def on(self, wanted, turns, is_open):
+        """The `mapped.MappedObject` that is wanted with these, on a map whose sides turn by this part of a full turn.
+
+        is_open : whether parts on which poles were moved need not turn
+        """
+        fields, angles = {}, [turns * angle for _, angle in self.cones]
+        if angles and turns != 1 and all(abs(angle - round(angle)) < ROUNDING for angle in angles):
+            fields["cones"] = dict(self.cones)
+        if self.poles and (turns == 1 or is_open):
+            fields |= {"moves": self.moves, "poles": self.base or wanted.request.poles}
+            wanted = replace(wanted, points=self.poles)
+        return replace(wanted, request=replace(wanted.request, **fields))
+
+
+def points_of(obj, dials):
+    """The `Points` of an object that count with these dials; None where they do not, or what it stores is none."""
+    try:
+        values = json.loads(of(obj)[MOVED])
+        rows = {name: tuple(map(tuple, values[name])) for name in ("moves", "cones")}
+        found = Points(**{**values, "poles": tuple(values["poles"]), "base": tuple(values["base"]), **rows})
+        moves = [number for index, vertex in found.moves for number in (index, vertex)]
+        used = [*found.poles, *found.base, *moves, *(vertex for vertex, _ in found.cones)]
+        is_one = all(range(found.vertices)[number] == number for number in used)
+        is_one &= all(math.isfinite(angle) for _, angle in found.cones)
+    except (ValueError, TypeError, LookupError, OverflowError, RecursionError):
+        return None
+    counts = found.vertices, found.count
+    is_one &= dials.poles not in BY_SELECTION and counts == (len(obj.data.vertices), asked_count(dials))
+    return found if is_one else None
+
+
+def asked_count(dials):
+    """See `Points.count`."""
+    return dials.pole_count if dials.poles == "COUNT" else -1
+
+
+def kept(dials, poles, mesh):
+    """The dials, {name: value}, that an object stores of a map with these poles: points of one run are moved ones from
+    then on."""
+    if dials.get("poles") not in BY_SELECTION:
+        return dials
+    chosen = poles if isinstance(poles, tuple) else ()
+    text = Points(len(mesh.vertices), -1, poles=chosen, base=chosen).text if chosen else ""
+    return dials | {"poles": "AUTOMATIC", MOVED: text}
 
 
 @contextmanager

@@ -29,9 +29,7 @@ class Target:
     mask: np.ndarray | None = None  # (#F,) which faces of the mesh are mapped, None for all
     modifiers: bool = False  # whether the polygons are those that the modifiers make
     makes_object: bool = False  # whether these become an object of their own
-    sharp: np.ndarray = field(
-        default_factory=lambda: jobs.NO_EDGES
-    )  # (n, 2) vertices of the edges that are marked sharp
+    sharp: np.ndarray = field(default_factory=jobs.NO_EDGES.copy)  # (n, 2) vertices of the edges that are marked sharp
     sharers: tuple = ()  # names of the further objects with this mesh that are asked for
 
     def find(self):
@@ -47,9 +45,9 @@ class Target:
 
     def _is_what_was_read(self, obj):
         if self.modifiers:
-            return mesh_io.read_shown(obj, gathering.linear(obj), self.polygons)[0].equals(self.polygons)
+            return mesh_io.read_shown(obj, self.polygons)[0].equals(self.polygons)
         has_faces = self.mask is None or len(obj.data.polygons) == len(self.mask)
-        return has_faces and read(obj, self.mask).equals(self.polygons)
+        return has_faces and mesh_io.read(obj, self.mask).equals(self.polygons)
 
 
 def collect(objects, asked=EVERYTHING, faces=jobs.WHOLE, modifiers=False, at_seams=False):
@@ -63,7 +61,7 @@ def collect(objects, asked=EVERYTHING, faces=jobs.WHOLE, modifiers=False, at_sea
     _write_pending_edits(objects)
     masks = _masks(objects, faces)
     targets, first = {}, {}  # by object; the object that counts by mesh
-    for obj in (o for o in objects if o.data in masks):
+    for obj in [o for o in objects if o.data in masks]:
         other = first.get(obj.data)
         target = _target(obj, masks[obj.data], asked, modifiers, at_seams) if other is None or modifiers else None
         if target is None or (other is not None and not target.makes_object):
@@ -123,12 +121,12 @@ def _target(obj, mask, asked, modifiers, at_seams):
     reason = _why_refused(obj, mask, asked)
     if reason:
         return replace(target, refused=reason)
-    own, sharp = read(obj, mask), mesh_io.marked_edges(obj.data, mesh_io.SHARP)
+    own, sharp = mesh_io.read(obj, mask), mesh_io.marked_edges(obj.data, mesh_io.SHARP)
     target = replace(target, sharp=sharp)
     if modifiers and obj.mode == "OBJECT":
         return _with_modifiers(replace(target, modifiers=True), obj, own, asked, at_seams)
     modifier = "" if own.face_count else first_modifier(obj)
-    if modifier and mesh_io.read_shown(obj, gathering.linear(obj), own)[0].face_count:
+    if modifier and mesh_io.read_shown(obj, own)[0].face_count:
         sentence = f"all its faces come from its modifiers ({modifier}): switch With Modifiers on"
         return replace(target, refused=sentence)
     return replace(target, polygons=own, chosen=_chosen(obj, asked, at_seams))
@@ -145,7 +143,7 @@ def _why_refused(obj, mask, asked):
 
 def _with_modifiers(target, obj, own, asked, at_seams):
     """The target as its modifiers make it: its own polygons in other places, or other ones."""
-    shown, seams, sharp, are_own = mesh_io.read_shown(obj, gathering.linear(obj), own)
+    shown, seams, sharp, are_own = mesh_io.read_shown(obj, own)
     if target.mask is None and are_own:
         chosen = _chosen(obj, asked, at_seams)
         return replace(target, polygons=replace(own, vertices=shown.vertices), chosen=chosen)
@@ -171,9 +169,9 @@ def first_modifier(obj):
 
 def _chosen(obj, asked, at_seams):
     """The choices, with the vertices and edges of this object; @pre pending edits are written to the mesh."""
-    marks = [mesh_io.SEAM] * at_seams
     vertices = _selected(obj, asked.use) if asked.vertices is None else asked.vertices
-    return replace(asked, vertices=vertices, seams=mesh_io.marked_edges(obj.data, *marks))
+    seams = mesh_io.marked_edges(obj.data, mesh_io.SEAM) if at_seams else jobs.NO_EDGES
+    return replace(asked, vertices=vertices, seams=seams)
 
 
 def _selected(obj, use):
@@ -200,25 +198,6 @@ def align(targets, results):
     """The results in the order of all targets; a target that was refused at once has none."""
     solved = iter(results)
     return [None if t.refused else next(solved) for t in targets]
-
-
-def read(obj, mask=None):
-    """The polygons as they are seen: with the object's scale, without modifiers; some of them for a mask."""
-    return part(mesh_io.read_polygons(obj.data, gathering.linear(obj)), mask)
-
-
-def part(polygons, mask):
-    """The `mesh_io.Polygons` of some of the faces, or of all of them for None."""
-    if mask is None:
-        return polygons
-    faces = np.flatnonzero(mask).astype(np.int32)
-    sizes = np.diff(polygons.face_offsets)
-    offsets = np.zeros(len(faces) + 1, np.int32)
-    np.cumsum(sizes[faces], out=offsets[1:])
-    corners = np.flatnonzero(polygons.has_corner_in(mask)).astype(np.int32)
-    loops = corners if polygons.loops is None else polygons.loops[corners]
-    chosen = polygons.corner_vertices[corners]
-    return replace(polygons, corner_vertices=chosen, face_offsets=offsets, loops=loops, faces=faces)
 
 
 def border(mesh, polygons):

@@ -17,6 +17,7 @@ MAIN_MAP = "Holomorphic"
 SHAPE = "Holomorphic Shape"  # vector attribute of vertices
 BAKE_MAP = "Holomorphic Bake"
 OF_BAKE = "holomorph_bake_map"  # custom property of a mesh: name of the map that images are baked by
+BEFORE = "holomorph_shown_before"  # custom property of a mesh: the UV maps that were active, in editors and for renders
 OWN_MAPS = "holomorph_maps"  # custom property of a mesh: names of the maps that were made here, one in a line
 
 
@@ -170,6 +171,29 @@ def show_map(mesh, name):
     if layer is not None:
         mesh.uv_layers.active = layer
         layer.active_render = True
+
+
+def remember_shown(mesh):
+    """Notes which active maps are not ours. @pre ours are not yet removed or written"""
+    before, ours = dict(mesh.get(BEFORE, {})), (*own_maps(mesh), bake_map(mesh))
+    active, rendered = mesh.uv_layers.active, next((layer for layer in mesh.uv_layers if layer.active_render), None)
+    for use, layer in (("active", active), ("rendered", rendered)):
+        if layer is not None and layer.name not in ours:
+            before[use] = layer.name
+    if before:
+        mesh[BEFORE] = before
+
+
+def show_remembered(mesh):
+    """Makes the maps active again that were noted; returns whether any were."""
+    before = dict(mesh.get(BEFORE, {}))
+    mesh.pop(BEFORE, None)
+    active, rendered = (mesh.uv_layers.get(before.get(use, "")) for use in ("active", "rendered"))
+    if active is not None:
+        mesh.uv_layers.active = active
+    if rendered is not None:
+        rendered.active_render = True
+    return bool(before)
 
 
 def write_shape(mesh, points):

@@ -13,7 +13,7 @@ import numpy as np
 from .. import compatibility
 from ..compatibility import Values
 from ..results import tags
-from ..scene import gathering, mesh_io, stored_dials, uv_maps
+from ..scene import mesh_io, stored_dials, uv_maps
 from . import pieces, placing, tree, wires
 
 PIECES_OF, WIRES_OF, CELLS_OF, RELIEF_OF = (  # custom properties
@@ -25,7 +25,7 @@ SHARP = math.radians(35)  # angle of a piece's faces above which their edge is s
 def source(obj):
     """(polygons, (#C, 2) UVs, name of the lattice, `Map.turns`) of the tiling of an object. @throws ValueError with one
     sentence"""
-    polygons = mesh_io.read_polygons(obj.data, gathering.linear(obj))
+    polygons = mesh_io.read(obj)
     if not polygons.face_count:
         raise ValueError(f"{obj.name}: it has no faces")
     name = main_map(obj)

@@ -100,9 +100,8 @@ class _Before:
     def __init__(self, context):
         layer = context.view_layer
         self._context = context
-        self._active, self._selected = layer.objects.active, set(compatibility.selected_in(layer))
+        self.modes, self._active = Modes(context), layer.objects.active
         self._hidden = {obj for obj in compatibility.objects_in(layer) if obj.hide_get()}
-        self.modes = Modes(context)
         self._blocks = {block.as_pointer() for block in _blocks()}
         self._kept = [states.Attributes(context.scene.tool_settings, "mesh_select_mode", "use_uv_select_sync")]
 
@@ -132,7 +131,7 @@ class _Before:
         layer = self._context.view_layer
         for obj in compatibility.objects_in(layer):
             obj.hide_set(obj in self._hidden)
-            obj.select_set(obj in self._selected)
+            obj.select_set(obj in self.modes.selected)
         layer.objects.active = self._active
         self.modes.enter()
 
@@ -153,11 +152,12 @@ def _blocks():
 
 
 class Modes:
-    """The modes of the mesh objects of a view layer, whichever of them is the active one."""
+    """The modes of the mesh objects of a view layer, whichever of them is the active one; `selected` are those that
+    were selected."""
 
     def __init__(self, context):
         layer = context.view_layer
-        self._layer, self._selected = layer, set(compatibility.selected_in(layer))
+        self._layer, self.selected = layer, set(compatibility.selected_in(layer))
         self._before = {}  # mode: its objects
         for obj in _elsewhere(layer):
             self._before.setdefault(obj.mode, []).append(obj)
@@ -183,7 +183,7 @@ class Modes:
                 self._select(objects)
                 active = self._layer.objects.active
                 self._set(active if active in objects else objects[0], mode)
-                self._select(self._selected)
+                self._select(self.selected)
             for obj in objects:
                 if obj.mode != mode:
                     self._set(obj, mode)
@@ -194,7 +194,7 @@ class Modes:
         self._layer.objects.active = active
 
     def _select(self, objects):
-        for obj in {*self._selected, *self._before["EDIT"]}:
+        for obj in {*self.selected, *self._before["EDIT"]}:
             obj.select_set(obj in objects)
 
 

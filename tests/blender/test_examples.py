@@ -53,7 +53,7 @@ def test_no_example_is_folded_over_itself(name):
     open_example(name)
     library = module("native").load()
     for obj in bpy.context.view_layer.objects:
-        for part in module("scene.targets").read(obj).surface(strict=False).components:
+        for part in module("scene.mesh_io").read(obj).surface(strict=False).components:
             assert np.degrees(library._native.bends(part._native).max()) < 150
             assert not len(library._native.crossings(part.vertices, part.triangles, threads=0))
 

@@ -156,7 +156,7 @@ def of_scene(entries):
         reports += entry["components"]
         joined += entry["repairs"]["joined_vertices"]["count"]
         obj = bpy.data.objects[entry["object"]]
-        polygons = mesh_io.read_polygons(obj.data, gathering.linear(obj))
+        polygons = mesh_io.read(obj)
         uv = uv_maps.read_corners(obj.data, polygons, entry["maps"][0]["name"]).astype(float)
         points = np.nan_to_num(polygons.vertices)
         meshes.append(sizes_of(points, polygons.corner_vertices, polygons.face_offsets, uv))
