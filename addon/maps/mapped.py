@@ -202,7 +202,7 @@ def _made(objects, progress):
     Refusals are told. What no tiling fits gets another map, if what is chosen fits anywhere."""
     asked = [[_asked(one.request, part) for part in one.solved.done] for one in objects]
     size = objects[0].request.size_of([surface for parts in asked for _, surface, _ in parts])
-    found = holomorph.maps.map_objects.map_objects(asked, size, progress=progress)
+    found = holomorph.maps.map.map_objects(asked, size, progress=progress)
     return [(_parts(*each, made), own_size) for *each, (made, own_size) in zip(objects, asked, found)]
 
 

@@ -40,7 +40,7 @@ from .maps import arrangement, report
 from .quality import distortion
 from .packing import layout
 from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
-from .maps.automatic_map import automatic_map, automatic_maps
+from .maps.automatic_map import automatic_map, automatic_maps, form_map, island_map
 from .maps.automatic_structure import AnyStructure, automatic_structure
 from .forms.bounded import BoundedStructure
 from .tiles.cells import Cells
@@ -62,7 +62,7 @@ from .tiling.image_lattice import ImageLattice, image_lattice
 from .tiling.image_turns import ImageTurns, image_turns
 from .levels.levels import LevelOfDetail
 from .forms.log_map import log_map
-from .maps.map import Map, form_map, island_map
+from .maps.map import Map
 from .forms.narrow_bounds import Refinement
 from .packing.layout import Frame, frame, place
 from .tiles.places import Lines, Places

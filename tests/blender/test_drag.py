@@ -53,7 +53,7 @@ def neighbour(obj, vertex, steps=1):
 @pytest.fixture
 def stages(monkeypatch):
     """The stages that the library went through."""
-    search, noted = native.load().maps.map_objects, []
+    search, noted = native.load().maps.map, []
     made = search.map_objects
 
     def noting(objects, size, progress):

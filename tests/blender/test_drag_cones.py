@@ -123,7 +123,7 @@ def test_a_map_that_would_lose_too_much_is_refused_in_a_sentence(monkeypatch):
     obj = ball()
     tile()
     before, session = everything(obj), drag_session.Session(obj)
-    search = native.load().maps.map_objects
+    search = native.load().maps.map
     lost = native.load().TopologyError("it would lose 3 % of its area")
     monkeypatch.setattr(search, "map_objects", lambda objects, size, **_: [search.MappedParts([lost], size)])
     with pytest.raises(ValueError, match="it would lose 3 % of its area"):

@@ -208,7 +208,7 @@ def test_the_report_begins_with_words():
 def test_refused_parts_are_told_and_keep_their_map(monkeypatch):
     obj = torus()
     library = module("native").load()
-    search = library.maps.map_objects
+    search = library.maps.map
     made = search.map_objects
 
     def refuse(objects, size, **options):
@@ -234,7 +234,7 @@ def test_the_redo_panel_makes_nothing_again(monkeypatch):
 
     monkeypatch.setattr(module("solving.jobs"), "solved_anew", forbidden)
     press(texture="SCALES")
-    monkeypatch.setattr(module("native").load().maps.map_objects, "map_objects", forbidden)
+    monkeypatch.setattr(module("native").load().maps.map, "map_objects", forbidden)
     for texture in ("CHECKER", "WEAVE", "SCALES"):
         assert press(seams=True, texture=texture) == {"FINISHED"}
 

@@ -40,7 +40,7 @@ report = module("results.report")
 @pytest.fixture
 def calls(monkeypatch):
     """What the library was asked for, one entry for each part of a map that is made."""
-    search, noted = native.load().maps.map_objects, []
+    search, noted = native.load().maps.map, []
     made = search.map_objects
 
     def noting(objects, size, **options):
@@ -55,7 +55,7 @@ def calls(monkeypatch):
 @pytest.fixture
 def rounded(monkeypatch):
     """One entry for each map for which whole numbers were looked for."""
-    search, noted = native.load().maps.map_objects, []
+    search, noted = native.load().maps.map, []
     made = search.map_objects
 
     def noting(objects, size, progress):

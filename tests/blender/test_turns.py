@@ -142,7 +142,7 @@ def test_the_best_map_of_an_even_ring_needs_no_cones():
 def test_only_what_changed_is_made_again(monkeypatch):
     """Textures with the same turns share a map, and maps for others are kept beside it."""
     ball()
-    search, made = module("native").load().maps.map_objects, []
+    search, made = module("native").load().maps.map, []
     make = search.map_objects
 
     def noting(*arguments, **options):

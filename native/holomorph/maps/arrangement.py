@@ -69,7 +69,7 @@ def arranged(maps: Sequence[Map], corners: int, arrangement: Arrangement = Arran
 
     Beside a tiling all values are exact in single precision.
     """
-    corners = whole_number(corners, "corners", _corner_count(made.surface for made in maps))
+    corners = whole_number(corners, "corners", _corner_count([made.surface for made in maps]))
     return _with_repeated(_native.arranged(_laid(maps), corners, arrangement._native), [made.surface for made in maps])
 
 
@@ -78,12 +78,12 @@ def arranged_form(
 ) -> Reals:
     """(#C, 2) UVs of a mesh: the maps of one form, counted from 0, of parts with their structures; zeros at corners of
     parts that lack it."""
+    corners = whole_number(corners, "corners", _corner_count([surface for surface, _ in parts]))
     form, maps = whole_number(form, "form"), []
     for surface, structure in parts:
         if form < structure.form_count:  # their type of coefficients: a complex factor would bend straight boundaries
             uv = structure.uv(np.eye(structure.form_count, dtype=structure.coefficient_type)[form])
             maps.append(_one(surface, uv, structure.quality(uv).median_density))
-    corners = whole_number(corners, "corners", _corner_count(surface for surface, _ in parts))
     return _with_repeated(_native.arranged(maps, corners, arrangement._native), [surface for surface, _ in parts])
 
 
@@ -107,8 +107,8 @@ def _one(surface, uv, density, is_tiled=False, turns=1):
 
 def _corner_count(surfaces):
     """The corners up to the last one of any of the parts."""
-    indices = (index for each in surfaces for index in (each.corner_index, each._origin.repeated))
-    return max((int(index.max()) + 1 for index in indices if index.size), default=0)
+    indices = [index for each in surfaces for index in (each.corner_index, each._origin.repeated)]
+    return max([int(index.max()) + 1 for index in indices if index.size], default=0)
 
 
 def unit_length(maps: Sequence[Map], arrangement: Arrangement = Arrangement()) -> float:

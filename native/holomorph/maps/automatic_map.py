@@ -1,4 +1,5 @@
-"""The map of one connected part, and those of all parts of a mesh, by the same steps, with squares of one size."""
+"""The map of one connected part, the best or of a kind that is asked for; and those of all parts of a mesh, by the same
+steps, with squares of one size."""
 
 from __future__ import annotations
 
@@ -8,14 +9,16 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
+from .. import _native
+from .._native import TopologyError
 from ..core.array_types import Progress
-from ..mesh.checks import check_list, check_type
+from ..core.progress import scaled
+from ..mesh.checks import check_list, check_threads, check_type, checked_evenness, only_component
 from ..mesh.surface import Surface
-from ..tiling.request import AUTOMATIC, EVENNESS, Request, asked_turns
+from ..tiling.request import AUTOMATIC, EVENNESS, Request, asked_turns, part_of
 from ..tiling.tilings import Poles
-from .automatic_structure import AnyStructure
-from .map import Map
-from .map_objects import Refusal, map_objects
+from .automatic_structure import AnyStructure, LateStructure
+from .map import Map, Refusal, map_objects
 
 
 def automatic_map(
@@ -166,3 +169,75 @@ def automatic_maps(
         if isinstance(found, MemoryError):
             raise found
     return made
+
+
+def form_map(
+    surface: Surface,
+    structure: AnyStructure,
+    why: str = "it was asked for",
+    *,
+    evenness: float = 0.0,
+    progress: Progress | None = None,
+) -> Map:
+    """The `Map` of the balanced combination of a structure's forms.
+
+    surface : the connected part, whose polygon corners are those that were solved on
+    evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Jumps stay,
+        and so do straight and round boundaries
+    progress : as in `conformal_structure`
+
+    Raises ValueError for an evenness outside 0 to 1; SolverError; Cancelled.
+    Source: Gu, Wang, Yau (2003), § 7, for combinations; evening is ours, docs/method/evening.md.
+
+    Examples
+    --------
+    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+    >>> structure = holomorph.conformal_structure(surface)
+    >>> print(holomorph.form_map(surface, structure).kind)
+    forms
+    """
+    evenness = checked_evenness(evenness)
+    check_type(why, str, "why")
+    asked = {"evenness": evenness, "is_upright": False, "why": why}
+    made = _native.form_map(structure._core, **asked, threads=structure._threads, progress=progress)
+    return Map.of_core(made, surface, structure)
+
+
+def island_map(
+    surface: Surface, *, evenness: float = 0.0, threads: int = 0, progress: Progress | None = None
+) -> Map | None:
+    """The `Map` of a connected surface in flat islands; None where a piece cannot be flattened, as where it is closed.
+
+    The surface is cut along edges where it breaks off by more than 60 degrees, a bevel once, and by more than 40 and
+    30 where pieces stretch or lie over themselves, whichever looks best; from tips to these edges, and until all pieces
+    are disks but for small holes. Each is mapped with a free boundary and evened; where lengths change by more
+    than a factor of 2.5, it is cut open to its cone points too if that looks better, and parted where it lies over
+    itself. Pieces are turned upright, and those that fit edge to edge are joined: first those that stay upright, longer
+    edges first.
+
+    Parameters
+    ----------
+    surface : Surface with positions
+    evenness : as in `Structure.tile`
+    threads, progress : as in `conformal_structure`
+
+    Raises TopologyError for several components, and for a surface without positions; Cancelled.
+    Source: Sawhney & Crane (2017), section 4, for each piece; cuts and joints are ours, docs/choice.md.
+
+    Examples
+    --------
+    >>> corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    >>> sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    >>> cube = holomorph.Surface(corners, sides)
+    >>> found = holomorph.island_map(cube)
+    >>> print(found.islands, len(found.seams))
+    1 7
+    """
+    check_type(surface, Surface)
+    component = only_component(surface)
+    if surface.vertices is None:
+        raise TopologyError("islands need a surface with positions; this one has edge lengths only")
+    threads = check_threads(threads or None)
+    asked = {"evenness": checked_evenness(evenness), "threads": threads, "progress": scaled(progress, 0.0, 0.0)}
+    made = _native.island_map(part_of(surface, component), **asked)
+    return made and Map.of_core(made, surface, LateStructure(surface, surface, threads))

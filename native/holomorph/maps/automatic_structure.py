@@ -1,15 +1,18 @@
-"""Which structure a part gets, by the choices and by its topology."""
+"""Which structure a part gets, by the choices and by its topology, and whether it is solved for at once."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
-from typing import TypeAlias
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from typing import Any, TypeAlias
 
 from numpy.typing import ArrayLike
 
+from .. import _native
 from ..core.array_types import Complexes, Integers, Progress
-from ..core.arrays import integer
+from ..core.arrays import frozen, integer
+from ..core.value import Value, counted
 from ..forms.bounded import BoundedStructure
 from ..forms.closed import ConformalStructure
 from ..forms.log_map import log_map
@@ -22,6 +25,7 @@ from ..mesh.surface import Surface
 from ..plane.cut import cut_along
 from ..plane.disk import default_disk_map, disk_map, disk_structure_of, free_boundary_map, rectangle_map
 from ..plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap
+from ..tiling.request import part_of
 
 AnyStructure: TypeAlias = (
     ConformalStructure | BoundedStructure | PoleStructure | DiskMap | FreeBoundaryMap | RectangleMap
@@ -108,3 +112,64 @@ def structure_of(core, surface, threads):
     else:
         made = disk_structure_of(core, surface, component, threads)
     return made.computed_by(partial(automatic_structure, surface, threads=threads))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LateStructure(Value):
+    """Stands for the `automatic_structure` of a part, which is made when first asked for more than is here: of one with
+    so many forms that these take long, or with none.
+
+    surface : whose vertices results name; part : what is solved on
+    """
+
+    surface: Surface
+    part: Surface
+    threads: int | None = None
+
+    form_count = 0  # that get maps of their own
+
+    @property
+    def description(self) -> str:
+        """What there is, in one phrase."""
+        if not self.is_large:
+            return self.made.description
+        return f"{_native.form_count(part_of(self.part))} forms, too many to solve for"
+
+    @property
+    def is_large(self) -> bool:
+        """Whether it takes long to make."""
+        return _native.has_too_many_forms(part_of(self.part))
+
+    @property
+    def edges(self) -> Integers:
+        """(#E, 2) vertices, as a structure has them."""
+        edges = self.part._native.edges
+        return edges if self.part is self.surface else frozen(self.part.vertex_index[edges])
+
+    def prepare_uv(self, progress: Progress | None = None) -> None:
+        """Nothing is done ahead."""
+
+    def of_copy(self, component: Surface) -> LateStructure:
+        """The structure of a copy."""
+        return LateStructure(component, component, self.threads)
+
+    @cached_property
+    def made(self) -> AnyStructure:
+        """The structure itself."""
+        return replace(automatic_structure(self.part, threads=self.threads), surface=self.surface)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__") or name in ("surface", "part", "threads"):  # as when a pickle is read
+            raise AttributeError(name)
+        return getattr(self.made, name)
+
+    def _facts(self):
+        return [self.description, counted(len(self.part.triangles), "triangle")]
+
+
+def late_structure(part: Surface, threads: int | None = None) -> LateStructure | None:
+    """The `LateStructure` of a connected part; None where it has forms that take less than that, or it has no
+    positions, and so no map without them."""
+    core = part_of(part)
+    is_late = _native.is_outline(core) or _native.has_too_many_forms(core)
+    return LateStructure(part, part, threads) if is_late else None

@@ -18,8 +18,7 @@ from ..core.array_types import Integers, Progress
 from ..core.progress import scaled
 from ..mesh.edges import boundary_edges, edge_keys, polygon_sides
 from ..mesh.surface import Surface
-from .automatic_structure import AnyStructure, automatic_structure
-from .late_structure import LateStructure, late_structure
+from .automatic_structure import AnyStructure, LateStructure, automatic_structure, late_structure
 
 AUTOMATIC, POLES, RECTANGLE, NONE = "AUTOMATIC", "POLES", "RECTANGLE", "NONE"  # what chosen vertices are
 CORNERS = 4
@@ -41,7 +40,7 @@ class Choices:
     use: str = NONE
     vertices: tuple[int, ...] | None = None
     residues: tuple[complex, ...] = ()
-    seams: Integers = field(default_factory=lambda: NO_EDGES, compare=False)
+    seams: Integers = field(default_factory=NO_EDGES.copy, compare=False)
     solver: str = "auto"
     is_late: bool = False
 
@@ -83,15 +82,14 @@ def chosen_structures(
     """(the surface of these polygons, its parts). Raises for a mesh that cannot be treated as a whole, and where an
     explicit choice of vertices does not fit the part they lie on."""
     surface = Surface.from_polygons(vertices, corner_vertices, face_offsets, strict=False)
-    chosen = _on_surface(choices, surface)
-    parts = surface.components
     explicit = np.array(choices.vertices if choices.is_explicit else (), np.int64)
     stray = explicit[~np.isin(explicit, corner_vertices)]
     if len(stray):
         raise InvalidMesh(f"vertex {stray[0]} belongs to no face and cannot be chosen")
-    total, done, made = max(sum(len(part.face_index) for part in parts), 1), 0.0, []
-    for part in parts:
-        share = len(part.face_index) / total
+    chosen, parts = _on_surface(choices, surface), surface.components
+    sizes, done, made = [len(part.face_index) for part in parts], 0.0, []
+    for part, size in zip(parts, sizes):
+        share = size / max(sum(sizes), 1)
         made.append(_structure_of_part(part, surface, vertices, chosen, scaled(progress, done, done + share)))
         done += share
     return surface, made
@@ -139,10 +137,10 @@ def wanted(part: Surface, choices: Choices) -> list[dict[str, Any]]:
 
 def _with_fitting_solver(part, keywords):
     """The paper's solver is for parts that have forms: other parts of a mesh are solved as usual."""
+    if keywords["solver"] != "paper":
+        return keywords
     has_forms = 2 * part.genus + part.boundary_count - (part.boundary_count > 0) > 0
-    if keywords["solver"] == "paper" and (not has_forms or _has_selection(keywords)):
-        return keywords | {"solver": "auto"}
-    return keywords
+    return keywords if has_forms and not _has_selection(keywords) else keywords | {"solver": "auto"}
 
 
 def _has_selection(keywords: Mapping[str, Any]) -> bool:

@@ -9,8 +9,7 @@ from ..forms.pole_structure import PoleStructure
 from ..forms.results import Structure
 from ..mesh.checks import check_type
 from ..plane.plane_maps import DiskMap
-from .automatic_structure import AnyStructure
-from .late_structure import LateStructure
+from .automatic_structure import AnyStructure, LateStructure
 
 
 def conformal_image(structure: AnyStructure) -> Reals | None:

@@ -1,20 +1,22 @@
-"""The UV map of one connected part, of whichever kind."""
+"""The UV map of one connected part, of whichever kind; and those of all parts of several objects, with squares of one
+size. The core chooses: native/src/choice."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from .. import _native
-from .._native import TopologyError
+from .._native import InvalidMesh, SolverError, TopologyError
 from ..core import arrays
 from ..core.array_types import Complexes, Integers, Progress, Reals
-from ..core.progress import scaled
 from ..core.value import Value
-from ..mesh.checks import check_threads, check_type, checked_evenness, only_component
+from ..mesh.checks import check_threads
 from ..mesh.folds import folds
 from ..mesh.surface import Surface
 from ..quality.appearance import CONE, HARD_SEAM, POLE, SEAM, cost
@@ -22,10 +24,9 @@ from ..quality.distortion import WorstPlace, drawn_density, worst_places
 from ..quality.quality import Quality
 from ..quality.verdicts import Seen, Verdict, verdict
 from ..tiles.tiled_surface import TiledSurface
-from ..tiling.request import part_of
+from ..tiling.request import Request, Size, plain_size
 from ..tiling.tilings import Tiling, vertices_of
-from .automatic_structure import AnyStructure
-from .late_structure import LateStructure
+from .automatic_structure import AnyStructure, LateStructure, structure_of
 
 # Times the root of its own area that a map is wide: single precision has no room for others then.
 SCATTERED = _native.scattered
@@ -205,73 +206,89 @@ class Map(Value):
         return [self.kind, self.why, self.verdict.level]
 
 
-def form_map(
-    surface: Surface,
-    structure: AnyStructure,
-    why: str = "it was asked for",
-    *,
-    evenness: float = 0.0,
+REFUSALS = InvalidMesh, TopologyError, SolverError  # what is said about one part, others go on
+Refusal: TypeAlias = InvalidMesh | TopologyError | SolverError
+Made: TypeAlias = Map | Refusal | MemoryError
+Asked: TypeAlias = tuple[Request, Surface, AnyStructure | LateStructure | None]  # of a part, in its own vertices
+
+
+class MappedParts(NamedTuple):
+    """maps : of the parts of one object; size : with which that object alone gets the same maps"""
+
+    maps: list[Made]
+    size: Size
+
+
+def map_objects(
+    objects: Sequence[Sequence[Asked]],
+    size: Size,
+    threads: int | None = None,
     progress: Progress | None = None,
-) -> Map:
-    """The `Map` of the balanced combination of a structure's forms.
+) -> list[MappedParts]:
+    """The maps of the parts of each object, with squares of one size over all of them.
 
-    surface : the connected part, whose polygon corners are those that were solved on
-    evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Jumps stay,
-        and so do straight and round boundaries
-    progress : as in `conformal_structure`
-
-    Raises ValueError for an evenness outside 0 to 1; SolverError; Cancelled.
-    Source: Gu, Wang, Yau (2003), § 7, for combinations; evening is ours, docs/method/evening.md.
-
-    Examples
-    --------
-    >>> surface = holomorph.Surface.read("examples/pretzel.obj")
-    >>> structure = holomorph.conformal_structure(surface)
-    >>> print(holomorph.form_map(surface, structure).kind)
-    forms
+    The median densities of tilings differ by a tenth at most from that of the largest part, which is made first, or by
+    up to a fifth where other maps cost more. A part on which whole tiles are too few for that, or have no room, gets
+    another map, which `arrangement` scales. Small parts are made side by side, and copies of one part once. What has
+    no map, also for want of memory, gets the error.
     """
-    evenness = checked_evenness(evenness)
-    check_type(why, str, "why")
-    asked = {"evenness": evenness, "is_upright": False, "why": why}
-    made = _native.form_map(structure._core, **asked, threads=structure._threads, progress=progress)
-    return Map.of_core(made, surface, structure)
+    threads, kind = check_threads(threads), _native.Request
+    asked = [[_or_error(_core, *each) for each in parts] for parts in objects]
+    fitting = [[core for core in cores if isinstance(core, kind)] for cores in asked]
+    found = _native.map_objects(fitting, _native.SizePolicy(*size), threads=threads, progress=progress)
+    pairs = (pair for each in zip(objects, asked) for pair in zip(*each))
+    maps, result = _Maps([part for part, core in pairs if isinstance(core, kind)], threads), []
+    for cores, (mapped, own_size) in zip(asked, found):
+        made = iter(mapped)
+        own = [maps.of(next(made)) if isinstance(core, kind) else core for core in cores]
+        result.append(MappedParts(own, plain_size(own_size)))
+    return result
 
 
-def island_map(
-    surface: Surface, *, evenness: float = 0.0, threads: int = 0, progress: Progress | None = None
-) -> Map | None:
-    """The `Map` of a connected surface in flat islands; None where a piece cannot be flattened, as where it is closed.
+def _core(request, surface, structure):
+    """The core's request. Where a structure is not solved for yet, other maps than of forms may do."""
+    if isinstance(structure, LateStructure):
+        is_needed = request.main in ("seamless", "balanced") or not isinstance(request.poles, str)
+        structure = structure.made if is_needed else None
+    return request.core(surface, structure)
 
-    The surface is cut along edges where it breaks off by more than 60 degrees, a bevel once, and by more than 40 and
-    30 where pieces stretch or lie over themselves, whichever looks best; from tips to these edges, and until all pieces
-    are disks but for small holes. Each is mapped with a free boundary and evened; where lengths change by more
-    than a factor of 2.5, it is cut open to its cone points too if that looks better, and parted where it lies over
-    itself. Pieces are turned upright, and those that fit edge to edge are joined: first those that stay upright, longer
-    edges first.
 
-    Parameters
-    ----------
-    surface : Surface with positions
-    evenness : as in `Structure.tile`
-    threads, progress : as in `conformal_structure`
+def _or_error(work, *arguments):
+    """What a function returns, or what refuses one part: others go on."""
+    try:
+        return work(*arguments)
+    except (*REFUSALS, MemoryError) as error:
+        return error.with_traceback(None)  # which holds what took the memory
 
-    Raises TopologyError for several components, and for a surface without positions; Cancelled.
-    Source: Sawhney & Crane (2017), section 4, for each piece; cuts and joints are ours, docs/choice.md.
 
-    Examples
-    --------
-    >>> corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
-    >>> sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    >>> cube = holomorph.Surface(corners, sides)
-    >>> found = holomorph.island_map(cube)
-    >>> print(found.islands, len(found.seams))
-    1 7
-    """
-    check_type(surface, Surface)
-    component = only_component(surface)
-    if surface.vertices is None:
-        raise TopologyError("islands need a surface with positions; this one has edge lengths only")
-    threads = check_threads(threads or None)
-    asked = {"evenness": checked_evenness(evenness), "threads": threads, "progress": scaled(progress, 0.0, 0.0)}
-    made = _native.island_map(part_of(surface, component), **asked)
-    return made and Map.of_core(made, surface, LateStructure(surface, surface, threads))
+class _Maps:
+    """The maps of the core as those of Python. A map that copies share is converted once."""
+
+    def __init__(self, parts, threads):
+        self._parts, self._threads, self._next = parts, threads, 0
+        self._structures: dict[int, AnyStructure | LateStructure] = {}
+        self._maps: dict[_native.Map, Map] = {}
+
+    def of(self, made):
+        """The map of the next part."""
+        (_, surface, structure), is_first = self._parts[self._next], made.first == self._next
+        self._next += 1
+        if made.map is None:
+            return _or_error(made.raise_refusal)
+        if made.map not in self._maps:
+            self._maps[made.map] = self._converted(made.map, made.first)
+        found = self._maps[made.map]
+        return found if is_first else found.of_copy(surface, structure, made.scale)
+
+    def _converted(self, made, part):
+        _, surface, structure = self._parts[part]
+        if part not in self._structures:
+            self._structures[part] = self._structure(made.structure, surface, structure)
+        return Map.of_core(made, surface, self._structures[part])
+
+    def _structure(self, core, surface, given):
+        if core is None:  # islands took its place
+            return given or LateStructure(surface, surface, self._threads)
+        if isinstance(given, LateStructure):
+            given = vars(given).get("made")
+        return structure_of(core, surface, self._threads) if given is None else given

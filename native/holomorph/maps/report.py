@@ -1,4 +1,6 @@
-"""Reports on surfaces, structures and maps, as plain data, ready for JSON; the verdict on a whole mesh."""
+"""Reports on surfaces, structures and maps, as plain data, ready for JSON; the verdict on a whole mesh.
+
+What a report consists of is gathered as it is, and made plain once."""
 
 from __future__ import annotations
 
@@ -18,7 +20,7 @@ from ..mesh.hard_edges import cuts
 from ..quality.quality import Quality
 from ..quality.verdicts import Seen, Verdict, baking, total_cost, verdict
 from .arrangement import Arrangement, square
-from .late_structure import LateStructure
+from .automatic_structure import LateStructure
 
 if TYPE_CHECKING:
     from ..mesh.repairs import Refused, Repairs
@@ -54,64 +56,67 @@ def component_report(
 
     main_map : `map_report` of the map that is shown first; by default that of the balanced coefficients
     """
-    certificate = structure.certificate.as_plain() if isinstance(structure, CertifiedStructure) else None
     if main_map is None:
         coefficients = structure.balanced_coefficients()
         main_map = map_report(coefficients, structure.quality(structure.uv(coefficients)))
-    return plain(
-        {
-            "done": True,
-            **_topology(surface),
-            "description": structure.description,
-            "forms": len(main_map["coefficients"]),
-            **structure.invariants(),
-            **({"certificate": certificate} if certificate else {}),
-            "residuals": vars(structure.residuals) | {"solver": structure.solver.residual},
-            "solver": vars(structure.solver),
-            "timings": structure.timings,
-            "intrinsic_flips": structure.flip_count,
-            "seam_edges": len(structure.seams),
-            "main_map": main_map,
-        }
-    )
+    return plain(_component(surface, structure, main_map))
+
+
+def _component(surface, structure, main_map):
+    return {
+        "done": True,
+        **_topology(surface),
+        "description": structure.description,
+        "forms": len(main_map["coefficients"]),
+        **structure.invariants(),
+        **({"certificate": structure.certificate.as_plain()} if isinstance(structure, CertifiedStructure) else {}),
+        "residuals": vars(structure.residuals) | {"solver": structure.solver.residual},
+        "solver": vars(structure.solver),
+        "timings": structure.timings,
+        "intrinsic_flips": structure.flip_count,
+        "seam_edges": len(structure.seams),
+        "main_map": main_map,
+    }
 
 
 def part_report(made: Map) -> dict[str, Any]:
     """The `component_report` of the part of a `Map`, with what kind of map it is, and of a tiling, or of the
     tilings of its pieces, poles and certificates; vertices are those of the mesh as given."""
+    return plain(_part(made))
+
+
+def _part(made):
     about = {"kind": made.kind, "why": made.why, "evenness": made.evenness}
     about["worst_places"] = {name: place._asdict() for name, place in made.worst_places.items()}
-    main_map = map_report(made.coefficients, made.quality, made.verdict) | about
+    main_map = _main_map(made.coefficients, made.quality, made.verdict) | about
     if isinstance(made.structure, LateStructure) and "made" not in vars(made.structure):
         description = made.structure.description if made.structure.is_large else made.why
         about = {"done": True, **_topology(made.surface), "description": description}
-        return plain(about | {"forms": 0, "main_map": main_map})
-    entry = component_report(made.surface, made.structure, main_map)
+        return about | {"forms": 0, "main_map": main_map}
+    entry = _component(made.surface, made.structure, main_map)
     entry["forms"] = made.structure.form_count
     if made.kind == "mixed":
-        entry["tilings"] = [_tiling_report(tiling, made.surface.vertex_index) for tiling in made.tilings]
-    return entry | ({"tiling": _tiling_report(made.tiling, made.surface.vertex_index)} if made.tiling else {})
+        entry["tilings"] = [_tiling(tiling, made.surface.vertex_index) for tiling in made.tilings]
+    return entry | ({"tiling": _tiling(made.tiling, made.surface.vertex_index)} if made.tiling else {})
 
 
-def _tiling_report(made, vertex_index):
+def _tiling(made, vertex_index):
     zeros, orders = made.zeros
-    return plain(
-        {
-            "added_distortion": float(made.added_distortion),
-            "size_range": float(made.size_range),
-            "beltrami_rms": float(made.beltrami_rms),
-            "tiles": float(made.tiles),
-            "poles": vertex_index[made.poles],
-            "residues": made.residues,
-            "zeros": vertex_index[zeros],
-            "orders": np.asarray(orders),
-            "periods": np.asarray(made.periods),
-            "turns": made.turns,
-            "cones": vertex_index[made.cones],
-            "cone_angles": made.cone_angles,
-            "lines": made.lines,
-        }
-    )
+    return {
+        "added_distortion": float(made.added_distortion),
+        "size_range": float(made.size_range),
+        "beltrami_rms": float(made.beltrami_rms),
+        "tiles": float(made.tiles),
+        "poles": vertex_index[made.poles],
+        "residues": made.residues,
+        "zeros": vertex_index[zeros],
+        "orders": np.asarray(orders),
+        "periods": np.asarray(made.periods),
+        "turns": made.turns,
+        "cones": vertex_index[made.cones],
+        "cone_angles": made.cone_angles,
+        "lines": made.lines,
+    }
 
 
 def skipped_report(surface: Surface, reason: object) -> dict[str, Any]:
@@ -126,18 +131,20 @@ def refused_report(refused: Refused) -> dict[str, Any]:
 
 def map_report(coefficients: ArrayLike, quality: Quality, found: Verdict | None = None) -> dict[str, Any]:
     """A UV map: its coefficients, its `Quality` and the `Verdict` on it, by default that of the quality."""
-    return plain(
-        {
-            "coefficients": coefficients,
-            "verdict": vars(found or quality.verdict),
-            "mean_angle": quality.mean_angle,
-            "size_range": quality.size_range,
-            "flipped_part": quality.flipped_part,
-            "flipped_triangles": np.count_nonzero(quality.flipped),
-            "collapsed_triangles": np.count_nonzero(quality.collapsed),
-            "overlapping_part": quality.overlapping_part,
-        }
-    )
+    return plain(_main_map(coefficients, quality, found or quality.verdict))
+
+
+def _main_map(coefficients, quality, found):
+    return {
+        "coefficients": coefficients,
+        "verdict": vars(found),
+        "mean_angle": quality.mean_angle,
+        "size_range": quality.size_range,
+        "flipped_part": quality.flipped_part,
+        "flipped_triangles": np.count_nonzero(quality.flipped),
+        "collapsed_triangles": np.count_nonzero(quality.collapsed),
+        "overlapping_part": quality.overlapping_part,
+    }
 
 
 def whole_report(
@@ -147,11 +154,15 @@ def whole_report(
     arrangement: Arrangement = PLAIN_ARRANGEMENT,
 ) -> dict[str, Any]:
     """`verdict`, `bake` and `whole` of a mesh, as `whole` takes what it is made of; all are None without a map."""
+    return plain(_whole(maps, parts, repairs, arrangement))
+
+
+def _whole(maps, parts, repairs, arrangement):
     found = whole(maps, parts, repairs, arrangement)
     if found is None:
         return dict.fromkeys(("verdict", "bake", "whole"))
     figures = {name: value for name, value in vars(found).items() if name not in ("verdict", "bake")}
-    return plain({"verdict": vars(found.verdict), "bake": vars(found.bake), "whole": figures})
+    return {"verdict": vars(found.verdict), "bake": vars(found.bake), "whole": figures}
 
 
 def parts_report(
@@ -167,9 +178,9 @@ def parts_report(
     """
     left_out = [skipped_report(surface, reason) for surface, made, reason, _ in parts if not made]
     left_out += [refused_report(one) for one in refused]
-    whole = whole_report([made for _, made, *_ in parts if made], left_out, repairs, arrangement)
+    about = _whole([made for _, made, *_ in parts if made], left_out, repairs, arrangement)
     entries = [*_part_reports(parts), *map(refused_report, refused)]
-    return {**whole, "repairs": repairs_report(repairs), "components": entries}
+    return plain({**about, "repairs": _repairs(repairs), "components": entries})
 
 
 def part_count(entries: Sequence[dict[str, Any]]) -> int:
@@ -193,7 +204,7 @@ def _part_reports(parts):
 
 
 def _entry(surface, made, reason, note):
-    entry = part_report(made) if made else skipped_report(surface, reason)
+    entry = _part(made) if made else skipped_report(surface, reason)
     return entry | ({"not_followed": note} if note else {})
 
 
@@ -210,8 +221,12 @@ def _shared(parts):
 
 def repairs_report(repairs: Repairs) -> dict[str, Any]:
     """`Repairs`, with the number and the first of the elements of each kind."""
+    return plain(_repairs(repairs))
+
+
+def _repairs(repairs):
     arrays = {name: value for name, value in vars(repairs).items() if isinstance(value, np.ndarray)}
-    return plain(
+    return (
         {name: _listed(value) for name, value in arrays.items()}
         | {"cuts": [_cut_report(cut) for cut in repairs.cuts], "mollification": repairs.mollification}
         | {"notes": repairs.notes}
@@ -274,25 +289,25 @@ def whole(
     if not maps:
         return None
     areas, sizes = np.array([made.surface.area for made in maps]), _sizes(maps)
-    quality = Quality.joined([made.quality for made in maps], sizes)
-    left_out = [part for part in parts if not part["done"]]
-    blank = sum(part.get("area", 0.0) for part in left_out)
-    seen = Seen.joined([made.seen for made in maps], areas, blank / (areas.sum() + blank or 1.0))
-    if areas.sum() > 0:
-        seen = seen.cut(*(length / math.sqrt(areas.sum()) for length in _cut_lengths(maps)))
+    tiled = float(areas[[made.is_tiled for made in maps]].sum() / (areas.sum() or 1.0))
     shown = sizes[(areas >= SMALL_PART * areas.sum()) & (sizes > 0)]
     spread = math.sqrt(shown.max() / shown.min()) if len(shown) else 1.0
-    tiled = float(areas[[made.is_tiled for made in maps]].sum() / (areas.sum() or 1.0))
+    left_out = [part for part in parts if not part["done"]]
+    blank, unmapped = sum(part.get("area", 0.0) for part in left_out), sum(part["faces"] for part in left_out)
+    text = "; ".join(_words(maps, spread, left_out, repairs))
+    quality = Quality.joined([made.quality for made in maps], sizes)
+    seen = Seen.joined([made.seen for made in maps], areas, blank / (areas.sum() + blank or 1.0))
+    if areas.sum() > 0:
+        seen = seen.cut(*_cut_lengths(maps, math.sqrt(areas.sum())))
     used = 0.0 if tiled else square(maps, arrangement).used
     bake = baking(quality.overlapping_part or 0.0, tiled, used)
-    text = "; ".join(_words(maps, spread, left_out, repairs))
-    unmapped = sum(part["faces"] for part in left_out)
     figures = quality.mean_angle, quality.size_range, spread, unmapped, seen.seams, total_cost(quality, seen)
     return Whole(text, *figures, verdict(quality, seen), bake)
 
 
-def _cut_lengths(maps):
-    """(length in view, length that hard edges hide) of the edges at which the maps of parts that were cut break off."""
+def _cut_lengths(maps, unit):
+    """(length in view, length that hard edges hide) of the edges at which the maps of parts that were cut break off, in
+    units of this length."""
     maps = [made for made in maps if made.surface.vertices is not None]
     if not maps:
         return 0.0, 0.0
@@ -302,7 +317,7 @@ def _cut_lengths(maps):
         both = np.flatnonzero(~is_torn & (parts[0] == part))
         is_torn[both] = _are_torn(maps[part], *sides[:, both])
     lengths = np.where(is_torn, lengths, 0.0)
-    return float(lengths @ in_view), float(lengths @ (1 - in_view))
+    return float(lengths @ in_view) / unit, float(lengths @ (1 - in_view)) / unit
 
 
 def _are_torn(made, one, other):

@@ -7,7 +7,7 @@ import families
 import numpy as np
 import pytest
 from holomorph import Surface, automatic_map, automatic_maps, conformal_structure
-from holomorph.maps import late_structure
+from holomorph.maps.automatic_structure import LateStructure, late_structure
 from holomorph.maps.chosen_structures import Choices, chosen_structures
 from holomorph.maps.report import part_report
 from solved import surface_of
@@ -36,7 +36,7 @@ def test_islands_are_taken_and_no_form_is_solved_for(name):
 
 @pytest.mark.parametrize("mesh", [families.torus(24, 18), families.block_with_holes(3), families.punctured_torus()])
 def test_few_forms_are_solved_for(mesh):
-    assert not isinstance(automatic_map(surface_of(mesh)).structure, late_structure.LateStructure)
+    assert not isinstance(automatic_map(surface_of(mesh)).structure, LateStructure)
 
 
 @pytest.mark.parametrize("name", FORMS)
@@ -55,7 +55,7 @@ def test_what_needs_forms_gets_them():
     balanced = automatic_map(surface, main="balanced", evenness=0)
     assert balanced.structure.period_matrix.tobytes() == structure.period_matrix.tobytes()
     assert balanced.kind == "forms"
-    late = late_structure.late_structure(surface)
+    late = late_structure(surface)
     again = automatic_map(surface, late, main="balanced", evenness=0)
     assert again.structure is late.made  # the next map does not solve for it again
 

@@ -9,7 +9,7 @@ import pytest
 from holomorph import Surface, TopologyError, automatic_maps, automatic_structure
 from holomorph.batch import mapping
 from holomorph.batch.recipe import Maps, Recipe
-from holomorph.maps.late_structure import LateStructure
+from holomorph.maps.automatic_structure import LateStructure
 from holomorph.maps.report import MOST_ALIKE, part_count, part_report, parts_report
 
 AUTOMATIC = Recipe(maps=Maps(main="automatic"))

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from holomorph import Surface, _native, automatic_map, automatic_maps
 from holomorph.maps.arrangement import arranged
-from holomorph.maps.map_objects import map_objects
+from holomorph.maps.map import map_objects
 from holomorph.quality.distortion import drawn_density
 from holomorph.tiling.request import TOLERANCE, Request, plain_size
 from solved import surface_of
