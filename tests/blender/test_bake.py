@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from baked_images import Points, covering, grown, islands, pixels, sampled
 from file_state import differences, file_state
-from headless_runs import headless, refusal, sets
+from headless_runs import pressed_here, refusal, sets
 from loaded_addon import module
 from scenes import grid_arrays, mesh_object, select, torus, uv_maps
 
@@ -420,8 +420,7 @@ def test_the_command_bakes(tmp_path):
     report = tmp_path / "report.json"
     pressed = ("--press", "tile", *sets("texture=BRICKS"), "--press", "bake")
     wanted = sets(f"folder={tmp_path / 'images'}", "texels=30")
-    done = headless(*pressed, *wanted, "--report", report, blend=tmp_path / "in.blend")
-    assert done.returncode == 0, done.stderr
+    pressed_here(*pressed, *wanted, "--report", report, blend=tmp_path / "in.blend")
     names = {f"Ring_{channel}.png" for channel in ("Colour", "Roughness", "Normal")}
     assert {path.name for path in (tmp_path / "images").iterdir()} == names
     (entry,) = json.loads(report.read_text())["objects"]

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from drawn_panel import Drawn
-from headless_runs import headless, sets
+from headless_runs import pressed_here, sets
 from loaded_addon import module
 from scenes import everything, mesh_object, select, sphere_arrays, stored_report, torus, uv
 from scenes import stored_poles as poles
@@ -54,8 +54,7 @@ def test_the_command_stores_what_it_is_asked_for(tmp_path):
     torus()
     source, target = tmp_path / "source.blend", tmp_path / "made.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(source))
-    run = headless("--output", target, *sets("tiles=30", "evenness=0.75", "texture=BRICKS"), blend=source)
-    assert run.returncode == 0, run.stderr
+    pressed_here("--output", target, *sets("tiles=30", "evenness=0.75", "texture=BRICKS"), blend=source)
     bpy.ops.wm.open_mainfile(filepath=str(target))
     obj = bpy.data.objects["Torus"]
     assert (obj.holomorph_map.tiles, obj.holomorph_map.texture) == (30, "BRICKS") and not stored_dials.is_behind(obj)
@@ -83,8 +82,7 @@ def test_the_command_starts_with_the_dials_of_each_object(tmp_path):
     second.holomorph_map.texture = alike.holomorph_map.texture = "BRICKS"
     source, report = tmp_path / "source.blend", tmp_path / "report.json"
     bpy.ops.wm.save_as_mainfile(filepath=str(source))
-    run = headless(*sets("evenness=0.25"), "--report", report, blend=source)
-    assert run.returncode == 0, run.stderr
+    pressed_here(*sets("evenness=0.25"), "--report", report, blend=source)
     made = {one["object"]: one["dials"] for one in json.loads(report.read_text())["objects"]}
     asked = {name: [made[name]["stored"][dial] for dial in ("tiles", "evenness", "texture")] for name in "ABC"}
     assert asked == {"A": [30, 0.25, "CHECKER"], "B": [0, 0.25, "BRICKS"], "C": [0, 0.25, "BRICKS"]}
@@ -132,11 +130,8 @@ def test_undo_takes_dial_and_map_back_together():
     for step, value, expected in ((bpy.ops.ed.undo, 0.5, before), (bpy.ops.ed.redo, 1.0, after)):
         step()
         obj = bpy.data.objects["Torus"]
-        assert (
-            obj.holomorph_map.evenness == value
-            and np.array_equal(uv(obj), expected)
-            and not stored_dials.is_behind(obj)
-        )
+        assert obj.holomorph_map.evenness == value and np.array_equal(uv(obj), expected)
+        assert not stored_dials.is_behind(obj)
 
 
 def test_after_the_step_of_a_slider_that_waited_the_dials_are_those_of_the_map():

@@ -200,7 +200,7 @@ def test_doors_agree(name, turns, tmp_path):
             continue
         if door is by_button and path.suffix == ".off":
             continue
-        bpy.ops.wm.read_factory_settings(use_empty=True)
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         (tmp_path / door.__name__).mkdir()
         answers[door.__name__] = door(path, tmp_path / door.__name__, turns)
     button, turned = answers.pop("by_button", None), TURNED if path.suffix in (".obj", *SCENES) else NEAR

@@ -7,7 +7,7 @@ import re
 import bpy
 import numpy as np
 import pytest
-from headless_runs import headless, sets, write_obj
+from headless_runs import pressed_here, sets, write_obj
 from loaded_addon import module
 from packed import assert_packed, capped_cylinder
 from scenes import everything, mesh_io, mesh_object, run, select, stored_report
@@ -148,8 +148,7 @@ def can_file(folder, n=24):
 
 def test_the_command_cuts_along_hard_edges(tmp_path):
     report, path = tmp_path / "report.json", can_file(tmp_path)
-    done = headless(path, "--press", "islands", *sets(f"hard_edges={math.radians(40)}"), "--report", report)
-    assert done.returncode == 0, done.stderr
+    pressed_here(path, "--press", "islands", *sets(f"hard_edges={math.radians(40)}"), "--report", report)
     (entry,) = json.loads(report.read_text())["objects"]
     (part,) = entry["components"]
     assert part["faces"] == 26 and "into 3 pieces" in part["main_map"]["why"]

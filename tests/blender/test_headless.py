@@ -1,4 +1,4 @@
-"""The headless program as its users run it: in a Blender of its own."""
+"""The headless program: as its users run it, in a Blender of its own, and in this one."""
 
 import json
 import os
@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from exchange_formats import SCENES, write
-from headless_runs import BLENDER, SCRIPT, SECONDS, headless, needs_program, our_lines, refusal, write_obj
+from headless_runs import BLENDER, SCRIPT, SECONDS, headless, needs_program, our_lines, pressed_here, refusal, write_obj
 from loaded_addon import module
 from repository import ROOT
 from scenes import limb_arrays, mesh_object, torus, torus_arrays, uv_maps
@@ -46,8 +46,7 @@ def test_models_of_other_programs(suffix, tmp_path):
     ring.data.materials.append(bpy.data.materials.new("Red"))
     bpy.context.scene.collection.objects.link(bpy.data.objects.new("Eye", bpy.data.cameras.new("Eye")))
     write(tmp_path / f"scene{suffix}")
-    done = headless(tmp_path / f"scene{suffix}", "--set", "checker=False", "--output", tmp_path / "out.blend")
-    assert done.returncode == 0, done.stderr
+    pressed_here(tmp_path / f"scene{suffix}", "--set", "checker=False", "--output", tmp_path / "out.blend")
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
     (ring,) = [obj for obj in bpy.data.objects if obj.type == "MESH"]
     assert ring.material_slots[0].material.name == "Red" and "Holomorphic" in ring.data.uv_layers
@@ -68,8 +67,7 @@ def test_buttons_in_their_order(tmp_path):
     torus("Ring")
     blend, out = saved(tmp_path / "in.blend"), tmp_path / "out.blend"
     pressed = ("--press", "tile", "--set", "tiles=24", "--press", "levels", "--set", "levels=2", "--set", "ratio=0.5")
-    done = headless(*pressed, "--output", out, blend=blend)
-    assert done.returncode == 0, done.stderr
+    pressed_here(*pressed, "--output", out, blend=blend)
     bpy.ops.wm.open_mainfile(filepath=str(out))
     assert bpy.data.objects["Ring"].holomorph_map.tiles == 24
     assert {"Ring_LOD1", "Ring_LOD2"} <= set(bpy.data.collections["Ring LODs"].objects.keys())
@@ -146,8 +144,7 @@ def test_what_is_not_done_is_told(tmp_path):
 
 def test_object_option(tmp_path):
     blend, report = ROOT / "blend_examples" / "mixed.blend", tmp_path / "report.json"
-    done = headless("--object", "Bowl", "--report", report, blend=blend)
-    assert done.returncode == 0, done.stderr
+    pressed_here("--object", "Bowl", "--report", report, blend=blend)
     assert [entry["object"] for entry in json.loads(report.read_text())["objects"]] == ["Bowl"]
     assert "Nobody" in refusal("--object", "Nobody", blend=blend, status=1)
 
@@ -173,8 +170,7 @@ def test_an_image_of_the_users(tmp_path, torus_file):
     image.filepath_raw, image.file_format = str(tmp_path / "rows.png"), "PNG"
     image.save()
     report, options = tmp_path / "report.json", ("--set", "texture=IMAGE", "--set", "size=0.5")
-    done = headless(torus_file, "--report", report, *options, "--set", f"source={tmp_path / 'rows.png'}")
-    assert done.returncode == 0, done.stderr
+    pressed_here(torus_file, "--report", report, *options, "--set", f"source={tmp_path / 'rows.png'}")
     own = json.loads(report.read_text())["objects"][0]["dials"]["own"]
     assert own["text"].startswith("Tiles; ") and own["height"] == 0.5
 
@@ -183,8 +179,7 @@ def test_tiles_are_over_all_objects_of_a_file(tmp_path):
     for scale in (1.0, 2.0):
         mesh_object(f"Limb {scale}", *limb_arrays()).scale = (scale, scale, scale)
     blend, report = saved(tmp_path / "limbs.blend"), tmp_path / "report.json"
-    done = headless("--report", report, "--press", "tile", "--set", "tiles=300", blend=blend)
-    assert done.returncode == 0, done.stderr
+    pressed_here("--report", report, "--press", "tile", "--set", "tiles=300", blend=blend)
     tilings = [entry["components"][0]["tiling"] for entry in json.loads(report.read_text())["objects"]]
     assert len(tilings) == 2 and sum(tiling["tiles"] for tiling in tilings) == pytest.approx(300, rel=0.1)
 
@@ -208,8 +203,7 @@ def test_a_link_is_of_the_kind_that_its_own_name_says(torus_file, tmp_path):
     replaced, output = tmp_path / "other blob", tmp_path / "out.blend"
     replaced.write_bytes(b"old")
     output.symlink_to(replaced)
-    done = headless(torus_file, "--output", output, "--report", tmp_path / "report.json")
-    assert done.returncode == 0, done.stderr
+    pressed_here(torus_file, "--output", output, "--report", tmp_path / "report.json")
     assert output.is_symlink() and replaced.read_bytes() != b"old"
     with bpy.data.libraries.load(str(output)) as (there, _):
         assert there.objects == ["ring"]

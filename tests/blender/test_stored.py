@@ -132,7 +132,7 @@ def test_a_damaged_report_loses_nothing(name):
 def test_operators_go_on_without_a_report(name, press):
     results = []
     for is_damaged in (False, True):
-        bpy.ops.wm.read_factory_settings(use_empty=True)
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         obj = MADE[name]()
         select(obj)
         if is_damaged:

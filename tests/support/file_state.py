@@ -2,6 +2,7 @@
 
 import functools
 import hashlib
+from operator import attrgetter
 
 import bpy
 import numpy as np
@@ -15,6 +16,7 @@ COMPUTED |= {"rendered_preview", "render_slots", "keying_sets_all", "total_vert_
 COMPUTED |= {"total_face_sel", "is_modified", "is_in_memory", "bound_box", "depth", "type_info", "packed_file"}
 COMPUTED |= {"loop_triangle_polygons", "cycles", "wireframe_color_type", "dimensions"}
 LARGE = 1_000_000  # values of an image
+STRUCT, BLOCK = bpy.types.bpy_struct, bpy.types.ID
 # Elements of meshes, which are read as arrays.
 ELEMENTS = {"vertices", "edges", "loops", "polygons", "loop_triangles", "vertex_normals", "polygon_normals"}
 ELEMENTS |= {"corner_normals", "uv_layers", "attributes", "color_attributes", "vertex_colors", "vertex_layers_float"}
@@ -65,7 +67,8 @@ def _collections():
 
 @functools.cache
 def _properties(kind):
-    """(name, type, whether an array) of a kind of struct."""
+    """(endings of paths, what reads all their values at once, names of arrays, [(name, whether a collection)] of the
+    rest, whether data-blocks, what is added besides) of a kind of struct."""
     own = [p for p in kind.bl_rna.properties if p.identifier not in COMPUTED]
     if kind is bpy.types.Mesh:
         own = [p for p in own if p.identifier not in ELEMENTS]
@@ -75,7 +78,14 @@ def _properties(kind):
         own = [p for p in own if p.identifier != "object"]
     if kind is getattr(bpy.types, "UvSculpt", None) and kind.bl_rna.base:  # 4.2 says that it is a Paint, wrongly:
         own = [p for p in own if p.identifier not in kind.bl_rna.base.properties]  # such values lie outside its memory
-    return [(p.identifier, p.type, getattr(p, "is_array", False)) for p in own]
+    structs = [(p.identifier, p.type == "COLLECTION") for p in own if p.type in ("POINTER", "COLLECTION")]
+    values = [p for p in own if p.type not in ("POINTER", "COLLECTION")]
+    arrays = [p.identifier for p in values if getattr(p, "is_array", False)]
+    names = [p.identifier for p in values if p.identifier not in arrays]
+    besides = {bpy.types.Mesh: _add_mesh, bpy.types.Image: _add_image, bpy.types.Object: _add_slots}
+    added = [add for base, add in besides.items() if issubclass(kind, base)]
+    read = attrgetter(*names, "__class__", "__class__")  # asked for two at least, it returns a tuple
+    return [f".{name}" for name in names], read, arrays, structs, issubclass(kind, bpy.types.ID), added
 
 
 def _add(state, struct, path, seen):
@@ -83,34 +93,28 @@ def _add(state, struct, path, seen):
     if struct.as_pointer() in seen:
         return
     seen.add(struct.as_pointer())
-    for name, kind, is_array in _properties(type(struct)):
+    ends, read, arrays, structs, is_block, added = _properties(type(struct))
+    state.update(zip(map(path.__add__, ends), read(struct)))
+    for name in arrays:
+        state[f"{path}.{name}"] = _plain(getattr(struct, name))
+    for name, is_collection in structs:
         value = getattr(struct, name, None)
-        where = f"{path}.{name}"
-        if kind == "POINTER":
-            _add_value(state, value, where, seen)
-        elif kind == "COLLECTION":
-            for index, element in enumerate(value):
-                _add_value(state, element, f"{where}[{index}]", seen)
-        else:
-            state[where] = _plain(value) if is_array else value
-    if isinstance(struct, bpy.types.Mesh):
-        _add_mesh(state, struct, path)
-    if isinstance(struct, bpy.types.Image):
-        _add_image(state, struct, path)
-    if isinstance(struct, bpy.types.Object):
-        _add_slots(state, struct, path)
-    if isinstance(struct, bpy.types.ID):
+        for index, element in enumerate(value) if is_collection else [(None, value)]:
+            _add_value(state, element, f"{path}.{name}[{index}]" if is_collection else f"{path}.{name}", seen)
+    for add in added:
+        add(state, struct, path)
+    if is_block:
         for key in list(struct.keys()):
             state[f"{path}[{key!r}]"] = _custom(struct[key])
 
 
 def _add_value(state, value, path, seen):
-    if isinstance(value, bpy.types.ID) and not value.is_embedded_data:
-        state[path] = f"{type(value).__name__} {value.name_full}"
-    elif isinstance(value, bpy.types.bpy_struct):
-        _add(state, value, path, seen)
-    else:
+    if value is None or not isinstance(value, STRUCT):
         state[path] = value
+    elif isinstance(value, BLOCK) and not value.is_embedded_data:
+        state[path] = f"{type(value).__name__} {value.name_full}"
+    else:
+        _add(state, value, path, seen)
 
 
 def _add_view(state, layer, path):
@@ -122,7 +126,8 @@ def _add_view(state, layer, path):
 
 
 def _plain(value):
-    return tuple(_plain(v) if hasattr(v, "__len__") else v for v in value)
+    values = tuple(value)
+    return tuple(map(_plain, values)) if values and hasattr(values[0], "__len__") else values
 
 
 def _custom(value):

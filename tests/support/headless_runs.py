@@ -39,19 +39,17 @@ def headless(*arguments, blend="", seconds=SECONDS):
     return subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False)
 
 
-def refusal(*arguments, blend="", status=2):
-    """The sentence with which the program ends, for a mistake in the command with status 2, when it is run in this
-    Blender: to start another one takes a second."""
+def pressed_here(*arguments, blend=""):
+    """What the program does, in this Blender: to start another one takes two seconds."""
     if blend:
         bpy.ops.wm.open_mainfile(filepath=str(blend))
-    program, arguments = module("headless"), [str(argument) for argument in arguments]
-    if status == 2:
-        with pytest.raises((ValueError, OSError)) as refused:
-            program.parse(arguments)
-    else:
-        options = program.parse(arguments)
-        with pytest.raises(RuntimeError) as refused:
-            program.process(options)
+    module("headless").process(module("headless").parse([str(argument) for argument in arguments]))
+
+
+def refusal(*arguments, blend="", status=2):
+    """The sentence with which the program ends, for a mistake in the command with status 2; in this Blender."""
+    with pytest.raises((ValueError, OSError) if status == 2 else RuntimeError) as refused:
+        pressed_here(*arguments, blend=blend)
     return str(refused.value)
 
 
