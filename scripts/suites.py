@@ -8,8 +8,8 @@ ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build"
 RESULTS = BUILD / "test"
 BLENDER = os.environ.get("HOLOMORPH_BLENDER") or "blender"
-# The longest ones first, so that two at a time end together.
-DEFAULT = ["lint", "native", "blender-3.4", "core", "package", "bpy-5.2", "window", "batch"]
+# After the quickest, the longest ones first, so that two at a time end together.
+DEFAULT = ["lint", "native", "core", "blender-3.4", "window", "bpy-5.2", "batch", "package"]
 ALL = ["injection", "lint", "native", "blender-3.4", "core", "package", "batch", "asan", "site", "window", "fuzz"]
 ALL += ["tidy", "window-new", "window-sid", "tsan", "bpy-5.2", "bpy-5.0", "bpy-4.5", "bpy-4.2"]
 ON_DEMAND = ["mutate", "platforms"]  # they compile for an hour
