@@ -23,6 +23,7 @@ def run(parts, seen):
     """Each part is a function that yields waits in seconds. In each, Blender handles and draws what there is, however
     long that takes, so that waits are short; `wait_until` waits for another thread. The dictionary `seen` at the end,
     with the traceback of an error, is left in the folder, in a file of the script's name."""
+    bpy.context.preferences.system.viewport_aa = "OFF"  # it draws views eight times, a second each without a GPU
     steps = itertools.chain.from_iterable(part() for part in parts)
 
     def finish():
@@ -39,4 +40,4 @@ def run(parts, seen):
             seen["traceback"] = traceback.format_exc()
             return finish()
 
-    bpy.app.timers.register(tick, first_interval=3, persistent=True)
+    bpy.app.timers.register(tick, first_interval=1, persistent=True)

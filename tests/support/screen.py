@@ -81,12 +81,13 @@ def draw():
 def picture(name):
     """The display, which the window fills: pictures that Blender takes itself are black in some versions."""
     draw()
-    subprocess.run(["import", "-window", "root", str(FOLDER / name)], check=True)
+    subprocess.run(["import", "-window", "root", "-quality", "10", str(FOLDER / name)], check=True)  # hardly packed
 
 
 def pixels(name):
     """(height, width, 3) of a picture that was taken, its lowest row first."""
     image = bpy.data.images.load(str(FOLDER / name))
-    values = np.array(image.pixels, np.float32).reshape(image.size[1], image.size[0], -1)[..., :3]
+    values, (width, height) = np.empty(len(image.pixels), np.float32), image.size
+    image.pixels.foreach_get(values)
     bpy.data.images.remove(image)
-    return values
+    return values.reshape(height, width, -1)[..., :3]

@@ -56,7 +56,7 @@ def prepare():
     bpy.ops.object.mode_set(mode="OBJECT")
     clear()
     torus("Small", 48, 24, 0)
-    torus("Big", 850, 700, 3)
+    torus("Big", 240, 200, 3)
     sheet("Sheet", 8, -4)
     pick("Small")
     with inside(area("VIEW_3D")):
