@@ -18,7 +18,7 @@ Contents. help(holomorph.Surface) tells more, and so for each name.
 Meshes: Surface; Repairs, Cut, Refused; punch_holes, double_cover, symmetrised, cut_along; ProgressiveMesh,
 LevelOfDetail.
 The map for a mesh: automatic_map, automatic_maps, Map; form_map, island_map; arrangement, layout,
-Frame, frame, place; report.
+Frame, frame; report.
 Its quality: Verdict, verdict, Seen, UNEVEN, Quality, distortion; CoarsePlace, coarse_places.
 Structures: conformal_structure, automatic_structure, AnyStructure, SOLVERS; ConformalStructure, BoundedStructure,
 PoleStructure, log_map, Zeros, FundamentalDomain, PeriodMatrix; Certificate, Refinement; MemoryPlan, SolverReport,
@@ -64,7 +64,7 @@ from .levels.levels import LevelOfDetail
 from .forms.log_map import log_map
 from .maps.map import Map, form_map, island_map
 from .forms.narrow_bounds import Refinement
-from .packing.layout import Frame, frame, place
+from .packing.layout import Frame, frame
 from .tiles.places import Lines, Places
 from .plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap
 from .forms.pole_structure import PoleStructure
@@ -161,7 +161,6 @@ if TYPE_CHECKING:  # at run time, help() would print all that it names in full, 
         "island_map",
         "layout",
         "log_map",
-        "place",
         "place_poles",
         "punch_holes",
         "rectangle_map",

@@ -1,6 +1,5 @@
 """Checks of what results are made from."""
 
-import cmath
 import math
 import numbers
 import os
@@ -85,17 +84,6 @@ def whole_number(value: object, name: str, least: int = 0) -> int:
     if not least <= found < 2**31 or found != int(found):
         raise ValueError(f"{name} is {quoted(value)}; a whole number from {least} to below 2**31 is needed")
     return int(found)
-
-
-def complex_number(value: object, name: str) -> complex:
-    """`value` as a finite complex number. @throws ValueError"""
-    try:
-        found = complex(value) if isinstance(value, numbers.Complex) else complex(math.nan)
-    except OverflowError:
-        found = complex(math.inf)
-    if not cmath.isfinite(found):
-        raise ValueError(f"{name} is {quoted(value)}; a finite number is needed")
-    return found
 
 
 def check_list(value, name):
