@@ -178,17 +178,17 @@ MUTATIONS = (
         ("similar-strict", "(size(a) + size(b))", "0", SIMILAR),
     )
     | of(
-        PACKAGE + "moduli/igusa.py",
+        PACKAGE + "moduli/siegel.py",
         ("theta-terms", "SMALLEST_TERM = 40.0", "SMALLEST_TERM = 10.0", THETA),
     )
     # Period matrices that are given.
     | of(
-        PACKAGE + "forms/period_matrix.py",
+        PACKAGE + "forms/certificate.py",
         ("periods-distance", "-np.log1p(-norm)", "norm", KNOWN),
         ("periods-error-lost", "result.error = float(error)", "result.error = 0.0", KNOWN),
     )
     | of(
-        PACKAGE + "moduli/known_periods.py",
+        PACKAGE + "moduli/equivalence.py",
         ("periods-asymmetry", "change = np.abs(np.asarray(period_matrix) - omega) + ", "change = ", KNOWN),
         ("periods-error-ignored", 'getattr(period_matrix, "error", 0.0) + ', "", SURFACES),
     )
@@ -278,7 +278,7 @@ MUTATIONS = (
         ("direction-steep", "kSteep = 0.35", "kSteep = 0.2", DIRECTION),
         ("direction-turns", "period = 360.0 / turns", "period = 180.0 / turns", DIRECTION),
     )
-    | of(PACKAGE + "quality/direction.py", ("direction-slanted", "SLANTED = 25.0", "SLANTED = 20.0", DIRECTION))
+    | of(PACKAGE + "quality/quality.py", ("direction-slanted", "SLANTED = 25.0", "SLANTED = 20.0", DIRECTION))
     | of(ROOM + "tiling/cones/turned_space.cpp", ("lines-parts", "% 2 == 0 ? 1 : 0;", "% 2 == 0 ? 0 : 1;", LINES))
     | of(
         ROOM + "uv/turned_functions.cpp",

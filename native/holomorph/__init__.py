@@ -42,22 +42,22 @@ from .packing import layout
 from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
 from .maps.automatic_map import automatic_map, automatic_maps
 from .maps.automatic_structure import AnyStructure, automatic_structure
-from .forms.bounded import BoundedStructure
+from .forms.structure import BoundedStructure
 from .tiles.cells import Cells
 from .forms.certificate import Certificate
 from .mesh.checks import SOLVERS
-from .forms.closed import ConformalStructure
-from .quality.coarse_places import CoarsePlace, coarse_places
+from .forms.structure import ConformalStructure
+from .quality.distortion import CoarsePlace, coarse_places
 from .maps.conformal_image import conformal_image
 from .moduli.conformal_map import ConformalMap, conformal_map
 from .plane.cut import cut_along
 from .plane.disk import disk_map, free_boundary_map, rectangle_map
 from .mesh.double import double_cover, symmetrised
 from .moduli.equivalence import Equivalence, conformally_equivalent
-from .forms.fundamental_domain import FundamentalDomain
+from .forms.form_structure import FundamentalDomain
 from .tiles.height_image import height_image
 from .mesh.holes import punch_holes
-from .moduli.igusa import igusa_invariants
+from .moduli.siegel import igusa_invariants
 from .tiling.image_lattice import ImageLattice, image_lattice
 from .tiling.image_turns import ImageTurns, image_turns
 from .levels.levels import LevelOfDetail
@@ -67,14 +67,14 @@ from .forms.narrow_bounds import Refinement
 from .packing.layout import Frame, frame
 from .tiles.places import Lines, Places
 from .plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap
-from .forms.pole_structure import PoleStructure
+from .forms.log_map import PoleStructure
 from .levels.progressive import ProgressiveMesh
 from .quality.quality import Quality
 from .tiles.relief import Relief
 from .mesh.repairs import Cut, Refused, Repairs
-from .forms.period_matrix import PeriodMatrix
+from .forms.certificate import PeriodMatrix
 from .moduli.siegel import SiegelReduction, siegel_reduction
-from .forms.solver_report import MemoryPlan, Residuals, SolverReport
+from .forms.results import MemoryPlan, Residuals, SolverReport
 from .forms.structure import conformal_structure
 from .mesh.surface import Surface
 from .moduli.symmetries import Automorphisms, automorphisms

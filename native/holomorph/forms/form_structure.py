@@ -1,4 +1,4 @@
-"""What the results have in common that have forms to combine."""
+"""What the results have in common that have forms to combine; the fundamental domain of their surfaces (paper § 4)."""
 
 from __future__ import annotations
 
@@ -15,10 +15,45 @@ from ..core.array_types import Bounds, Complexes, Integers, Progress, Reals
 from ..core.value import Value, counted
 from ..mesh.checks import checked_coefficients
 from .certificate import Certificate, certificate
-from .fundamental_domain import FundamentalDomain, domain_and_tree
 from .narrow_bounds import Refinement
-from .results import Structure
-from .solver_report import MemoryPlan, SolverReport
+from .results import MemoryPlan, SolverReport, Structure
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FundamentalDomain(Value):
+    """The paper's disk D of all triangles, each joined to those before it across one edge (§ 4.1). The edges that were
+    not crossed, diagonals of polygons never among them, are the graph G with its dangling branches; `spanning_tree` and
+    `generator_edges` are part of it. Edges are indices into `edges` of the structure.
+
+    The paper takes triangles from a plain queue; here the order is such that loops are short (docs/method.md).
+
+    faces : (#T,) triangles in the order of D
+    joined : (#T,) edge across which each was joined to a triangle before it; -1 for the first
+    boundary : (#B, 2) vertices, from and to, of the oriented edges around D after the paper's step 3, in order, D on
+        their left: each edge of the cut graph in both directions (`seams`, unless those were chosen), each edge of the
+        surface's boundary in one
+    boundary_edges : (#B,) the same edges
+    generator_edges : (2g,) the edges e_i of G outside its spanning tree T. Closed in T each is the loop zeta_i of
+        `homology_basis`, which begins with it; of levels, and of the paper's solver, those loops come from the base
+        mesh instead
+    """
+
+    faces: Integers
+    joined: Integers
+    boundary: Integers
+    boundary_edges: Integers
+    generator_edges: Integers
+
+    def _facts(self):
+        return [counted(len(self.faces), "triangle"), counted(len(self.boundary), "boundary edge")]
+
+
+def domain_and_tree(native, edges):
+    """The `FundamentalDomain` of a native structure with these edges, (#E, 2) vertices, and the spanning tree."""
+    faces, joined, half_edges, tree, left_over = native.fundamental_domain()
+    ends = edges[half_edges >> 1]
+    ends = np.where((half_edges & 1).astype(bool)[:, None], ends[:, ::-1], ends)
+    return FundamentalDomain(faces, joined, arrays.frozen(ends), arrays.frozen(half_edges >> 1), left_over), tree
 
 
 @dataclass(frozen=True, eq=False, repr=False)

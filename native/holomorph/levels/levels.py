@@ -15,7 +15,7 @@ from ..core import arrays
 from ..core.array_types import Integers, Progress, Reals
 from ..core.progress import scaled
 from ..core.value import Value, counted
-from ..forms.solver_report import SolverReport
+from ..forms.results import SolverReport
 from ..mesh.checks import check_list, check_options
 from ..mesh.surface import Surface
 from ..tiling.request import checked_turns

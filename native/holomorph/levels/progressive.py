@@ -16,9 +16,8 @@ from .._native import InvalidMesh
 from ..core import arrays
 from ..core.array_types import FilePath, Integers, Progress
 from ..core.value import Value, quoted
-from ..forms.bounded import BoundedStructure
-from ..forms.closed import ConformalStructure
 from ..forms.results import result
+from ..forms.structure import BoundedStructure, ConformalStructure
 from ..mesh.checks import as_float, check_memory_limit, check_options, check_thresholds, check_type
 from ..mesh.origin import Origin
 from ..mesh.surface import Surface

@@ -10,12 +10,9 @@ from numpy.typing import ArrayLike
 
 from ..core.array_types import Complexes, Integers, Progress
 from ..core.arrays import integer
-from ..forms.bounded import BoundedStructure
-from ..forms.closed import ConformalStructure
-from ..forms.log_map import log_map
-from ..forms.pole_structure import PoleStructure
+from ..forms.log_map import PoleStructure, log_map
 from ..forms.results import result
-from ..forms.structure import BOUNDARIES, conformal_structure
+from ..forms.structure import BOUNDARIES, BoundedStructure, ConformalStructure, conformal_structure
 from ..mesh.checks import check_thresholds, only_component
 from ..mesh.edges import around_boundary
 from ..mesh.surface import Surface

@@ -10,10 +10,9 @@ from .. import _native
 from .._native import Error
 from ..core.array_types import Integers, Progress
 from ..core.value import Value, counted
-from ..forms.closed import ConformalStructure
+from ..forms.structure import ConformalStructure
 from ..mesh.checks import real_number
-from .equivalence import AGREEMENT, ROUNDING, STEPS
-from .known_periods import period_lattice
+from .equivalence import AGREEMENT, ROUNDING, STEPS, period_lattice
 
 GAP = 1e-6  # part of what is allowed: residuals that differ by less belong to the same symmetry of the mesh
 

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from .._native import TopologyError
 from ..core.value import Solution
+from ..forms.log_map import TruncatedStructure
 from ..forms.results import Structure
-from ..forms.truncated import TruncatedStructure
 from ..mesh.checks import check_type, own_vertices
 from ..mesh.edges import edge_keys, edges_of_keys, polygon_sides
 from .plane_maps import PlaneMap

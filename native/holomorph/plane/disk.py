@@ -10,10 +10,9 @@ import numpy as np
 from .. import _native
 from .._native import TopologyError
 from ..core.array_types import Integers, Progress
+from ..forms.log_map import PoleStructure, pole_structure_of
 from ..forms.narrow_bounds import narrow
-from ..forms.pole_structure import PoleStructure
 from ..forms.results import result
-from ..forms.truncated import pole_structure_of
 from ..mesh.checks import check_bounds, check_options, only_component, own_vertices
 from ..mesh.double import glued_copies
 from ..mesh.surface import Surface

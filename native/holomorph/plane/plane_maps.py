@@ -14,11 +14,10 @@ from ..core import arrays
 from ..core.array_types import Complexes, Integers, Progress, Reals
 from ..core.value import plain
 from ..forms.narrow_bounds import Refinement
-from ..forms.results import Structure
-from ..forms.solver_report import SolverReport
+from ..forms.results import SolverReport, Structure
 from ..mesh.checks import checked_coefficients
 from ..mesh.edges import boundary_corners
-from ..quality.overlap import overlapping_part
+from ..quality.appearance import overlapping_part
 from ..quality.quality import Quality
 
 
