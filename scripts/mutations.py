@@ -224,7 +224,7 @@ MUTATIONS = (
         ("curved-facets", "kLevel = 0.97", "kLevel = 0.0", LOOKS),
     )
     | of(
-        PACKAGE + "mesh/folds.py",
+        PACKAGE + "mesh/hard_edges.py",
         ("blades", "np.isin(sharp, ", "~np.isin(sharp, ", VERDICT),
     )
     | of(

@@ -43,7 +43,7 @@ from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, To
 from .maps.automatic_map import automatic_map, automatic_maps
 from .maps.automatic_structure import AnyStructure, automatic_structure
 from .forms.structure import BoundedStructure
-from .tiles.cells import Cells
+from .tiles.places import Cells
 from .forms.certificate import Certificate
 from .mesh.checks import SOLVERS
 from .forms.structure import ConformalStructure
@@ -58,20 +58,20 @@ from .forms.form_structure import FundamentalDomain
 from .tiles.height_image import height_image
 from .mesh.holes import punch_holes
 from .moduli.siegel import igusa_invariants
-from .tiling.image_lattice import ImageLattice, image_lattice
-from .tiling.image_turns import ImageTurns, image_turns
+from .tiling.images import ImageLattice, image_lattice
+from .tiling.images import ImageTurns, image_turns
 from .levels.levels import LevelOfDetail
 from .forms.log_map import log_map
 from .maps.map import Map, form_map, island_map
 from .forms.narrow_bounds import Refinement
 from .packing.layout import Frame, frame
 from .tiles.places import Lines, Places
-from .plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap
+from .plane.disk import DiskMap, FreeBoundaryMap, RectangleMap
 from .forms.log_map import PoleStructure
 from .levels.progressive import ProgressiveMesh
 from .quality.quality import Quality
 from .tiles.relief import Relief
-from .mesh.repairs import Cut, Refused, Repairs
+from .mesh.origin import Cut, Refused, Repairs
 from .forms.certificate import PeriodMatrix
 from .moduli.siegel import SiegelReduction, siegel_reduction
 from .forms.results import MemoryPlan, Residuals, SolverReport
@@ -80,7 +80,7 @@ from .mesh.surface import Surface
 from .moduli.symmetries import Automorphisms, automorphisms
 from .tiles.tiled_surface import TiledSurface
 from .tiling.tiling import Tiler, place_poles
-from .tiling.tilings import PlacedPoles, Rounding, Tiling
+from .tiling.tiling import PlacedPoles, Rounding, Tiling
 from .quality.verdicts import UNEVEN, Seen, Verdict, verdict
 from .forms.form_structure import Zeros
 

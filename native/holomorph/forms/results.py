@@ -17,9 +17,8 @@ from ..core.array_types import Integers, Progress, Reals
 from ..core.value import Solution, Value, counted
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
-from ..tiling.request import Request, asked_turns, part_of
-from ..tiling.tiling import Tiler
-from ..tiling.tilings import Poles, Tiling
+from ..tiling.request import Poles, Request, asked_turns, part_of
+from ..tiling.tiling import Tiler, Tiling
 
 
 @dataclass(frozen=True, repr=False)

@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike
 from ..core.array_types import Progress
 from ..mesh.checks import check_list, check_type
 from ..mesh.surface import Surface
-from ..tiling.request import AUTOMATIC, EVENNESS, Request, asked_turns
-from ..tiling.tilings import Poles
+from ..tiling.request import AUTOMATIC, EVENNESS, Poles, Request, asked_turns
 from .automatic_structure import AnyStructure
 from .map import Map
 from .map_objects import Refusal, map_objects

@@ -17,12 +17,9 @@ from ..mesh.checks import check_thresholds, only_component
 from ..mesh.edges import around_boundary
 from ..mesh.surface import Surface
 from ..plane.cut import cut_along
-from ..plane.disk import default_disk_map, disk_map, disk_structure_of, free_boundary_map, rectangle_map
-from ..plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap
+from ..plane.disk import PlaneMap, default_disk_map, disk_map, disk_structure_of, free_boundary_map, rectangle_map
 
-AnyStructure: TypeAlias = (
-    ConformalStructure | BoundedStructure | PoleStructure | DiskMap | FreeBoundaryMap | RectangleMap
-)
+AnyStructure: TypeAlias = ConformalStructure | BoundedStructure | PoleStructure | PlaneMap
 Vertices: TypeAlias = Sequence[int] | Integers
 
 

@@ -8,7 +8,7 @@ from ..core.array_types import Reals
 from ..forms.log_map import PoleStructure
 from ..forms.results import Structure
 from ..mesh.checks import check_type
-from ..plane.plane_maps import DiskMap
+from ..plane.disk import DiskMap
 from .automatic_structure import AnyStructure
 from .late_structure import LateStructure
 

@@ -15,7 +15,7 @@ from ..core.array_types import Complexes, Integers, Progress, Reals
 from ..core.progress import scaled
 from ..core.value import Value
 from ..mesh.checks import check_threads, check_type, checked_evenness, only_component
-from ..mesh.folds import folds
+from ..mesh.hard_edges import folds
 from ..mesh.surface import Surface
 from ..quality.appearance import CONE, HARD_SEAM, POLE, SEAM, cost
 from ..quality.distortion import WorstPlace, drawn_density, worst_places
@@ -23,7 +23,7 @@ from ..quality.quality import Quality
 from ..quality.verdicts import Seen, Verdict, verdict
 from ..tiles.tiled_surface import TiledSurface
 from ..tiling.request import part_of
-from ..tiling.tilings import Tiling, vertices_of
+from ..tiling.tiling import Tiling, vertices_of
 from .automatic_structure import AnyStructure
 from .late_structure import LateStructure
 

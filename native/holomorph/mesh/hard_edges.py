@@ -1,4 +1,4 @@
-"""Where a surface breaks off: edges between faces that meet at an angle, and tips that only a cut can flatten."""
+"""Where a surface breaks off or is folded: edges between faces that meet at an angle; surfaces cut open along edges."""
 
 from __future__ import annotations
 
@@ -7,12 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from .. import _native
+from ..core import arrays
 from ..core.array_types import Integers, Reals
-from .cut_open import next_sides
 from .edges import edge_keys
+from .origin import Origin
 from .surface import Surface
 
 TIP = np.pi / 3  # radians that are missing around a vertex, or too many
+SHARP = 150.0  # degrees between the normals of two faces: a fold, or a blade
 
 
 def is_hard(surface, degrees):
@@ -65,3 +67,28 @@ def _joined(arrays):
 def _angles(one, other):
     """(n,) radians between (n, 3) vectors."""
     return np.arctan2(np.linalg.norm(np.cross(one, other), axis=1), np.einsum("ij,ij->i", one, other))
+
+
+def cut_open(surface, is_seam):
+    """Cuts the surface open along the edges of this mask, (#E,), but leaves no sliver without the neighbour at its
+    longest side: no part is without area."""
+    native, index = _native.cut_open(surface._native, is_seam)
+    vertex_index = arrays.frozen(surface.vertex_index[index])
+    origin = Origin(vertex_index, surface.face_index, surface.corner_index, surface.given_vertex_count, up=surface.up)
+    return Surface._of(native, origin)
+
+
+def next_sides(sides: Integers) -> Integers:
+    """The side that follows each one in its triangle, numbered through all triangles."""
+    return np.where(sides % 3 == 2, sides - 2, sides + 1)
+
+
+def folds(surface, threads=0):
+    """(#E,) whether an edge bends by more than `SHARP`, and a face beside it goes through another one. Blades and
+    sheets with two sides bend, and do not cross."""
+    result = np.zeros(len(surface._native.edges), bool)
+    sharp = np.flatnonzero(is_hard(surface, SHARP))
+    if len(sharp):
+        crossing = np.unique(_native.crossings(surface.vertices, surface.triangles, threads=threads))
+        result[sharp] = np.isin(sharp, surface._native.triangle_edges[crossing])
+    return result

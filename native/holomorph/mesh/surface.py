@@ -16,8 +16,7 @@ from ..core.array_types import FilePath, Integers, Reals
 from ..core.value import Value, freeze
 from ..files import formats
 from . import checked_mesh
-from .origin import AS_GIVEN
-from .repairs import Refused, Repairs
+from .origin import AS_GIVEN, Refused, Repairs
 
 UNWELDED = "every face is separate: strict=False joins those that touch along a whole side"
 

@@ -15,7 +15,7 @@ from ..forms.log_map import TruncatedStructure
 from ..forms.results import Structure
 from ..mesh.checks import check_type, own_vertices
 from ..mesh.edges import edge_keys, edges_of_keys, polygon_sides
-from .plane_maps import PlaneMap
+from .disk import PlaneMap
 
 AStructure = TypeVar("AStructure", bound=Structure)
 

@@ -17,10 +17,8 @@ from ..core.array_types import Integers, Progress, Reals
 from ..core.value import Value, counted, quoted
 from ..mesh.checks import check_options, check_type
 from ..mesh.surface import Surface
-from ..tiling.request import TURNS
-from ..tiling.tilings import MOST_PER_TILE, generators
-from .cells import Cells
-from .places import Lines, Places
+from ..tiling.request import MOST_PER_TILE, TURNS, generators
+from .places import Cells, Lines, Places
 from .relief import Relief, raised
 from .turned_surface import Curves, check_grid, directions, joined, opened
 

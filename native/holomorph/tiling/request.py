@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import numbers
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
@@ -19,9 +20,13 @@ from ..mesh.checks import check_list, check_name, checked_evenness, only_compone
 from ..mesh.edges import boundary_edges
 from ..mesh.origin import edges_on_part, on_part
 from ..mesh.surface import Surface
-from .image_turns import image_turns
-from .tilings import BOUNDARIES, MOST_POLES, UPRIGHT, Poles, generators
+from .images import image_turns
 
+LATTICES = {"square": (1, 1j), "brick": (1, 0.5 + 1j), "hex": (1, 0.5 + 0.5j * math.sqrt(3))}
+BOUNDARIES = ("automatic", "straight", "free")
+MOST_POLES, MOST_PER_TILE = 1000, 1000
+Poles: TypeAlias = str | int | Sequence[int] | Integers  # "auto", a number, or vertices
+UPRIGHT = "upright"
 MAIN_MAPS = ("automatic", "seamless", "untiled", "balanced")
 ISLANDS = "islands"  # between chosen cuts: the main map of those that choose them
 EVENNESS = 0.5  # what suits textures: squares hardly differ in size, and their shear is not seen
@@ -277,6 +282,20 @@ def _heading(direction):
     if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
         raise ValueError(f"direction is {quoted(direction)}; three numbers, not all 0, are needed")
     return False, vector.tolist()
+
+
+def generators(lattice):
+    """The two generators of a lattice as complex numbers. @throws ValueError"""
+    if isinstance(lattice, str):
+        if lattice not in LATTICES:
+            raise ValueError(f"lattice is {quoted(lattice)}; one of {', '.join(LATTICES)} or a 2 x 2 matrix is needed")
+        return tuple(complex(z) for z in LATTICES[lattice])
+    matrix = arrays.numbers(lattice, "lattice")
+    if matrix.shape != (2, 2) or not np.isfinite(matrix).all():
+        raise ValueError(f"lattice has the shape {matrix.shape}; a finite 2 x 2 matrix is needed")
+    if abs(np.linalg.det(matrix)) <= 1e-9 * np.abs(matrix).max() ** 2:
+        raise ValueError("lattice is singular: its columns, the translations of the texture, must be independent")
+    return complex(*matrix[:, 0]), complex(*matrix[:, 1])
 
 
 def missing_turns(surface: Surface, component: Surface, cones: Mapping[int, float], turns: int) -> Integers:

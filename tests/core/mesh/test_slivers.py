@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from command_runs import run
 from holomorph import InvalidMesh, Surface, TopologyError, _native, automatic_map, automatic_maps, island_map
-from holomorph.mesh.cut_open import cut_open
-from holomorph.mesh.hard_edges import curvature
+from holomorph.mesh.hard_edges import curvature, cut_open
 from island_checks import cut_along
 from small_families import MESHES
 from solved import BOUNDED, CLOSED
