@@ -55,11 +55,11 @@ from .moduli.conformal_map import ConformalMap as ConformalMap, conformal_map as
 from .plane.cut import cut_along as cut_along
 from .plane.disk import DiskMap as DiskMap, FreeBoundaryMap as FreeBoundaryMap, RectangleMap as RectangleMap
 from .plane.disk import disk_map as disk_map, free_boundary_map as free_boundary_map, rectangle_map as rectangle_map
-from .mesh.double import double_cover as double_cover, symmetrised as symmetrised
+from .mesh.surgery import double_cover as double_cover, symmetrised as symmetrised
 from .moduli.equivalence import Equivalence as Equivalence, conformally_equivalent as conformally_equivalent
 from .forms.form_structure import FundamentalDomain as FundamentalDomain, Zeros as Zeros
 from .tiles.height_image import height_image as height_image
-from .mesh.holes import punch_holes as punch_holes
+from .mesh.surgery import punch_holes as punch_holes
 from .moduli.siegel import SiegelReduction as SiegelReduction, igusa_invariants as igusa_invariants
 from .moduli.siegel import siegel_reduction as siegel_reduction
 from .tiling.images import ImageLattice as ImageLattice, ImageTurns as ImageTurns, image_lattice as image_lattice

@@ -3,7 +3,7 @@
 import numpy as np
 from holomorph import free_boundary_map
 from holomorph.mesh.edges import edge_keys
-from holomorph.mesh.hard_edges import cut_open
+from holomorph.mesh.surgery import cut_open
 
 ISOMETRIC = 1e-10  # relative
 

@@ -15,6 +15,7 @@ from .. import _native
 from ..core import arrays
 from ..core.array_types import Integers, Progress, Reals
 from ..core.value import Solution, Value, counted
+from ..mesh.checks import checked_uv
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
 from ..tiling.request import Poles, Request, asked_turns, part_of
@@ -168,7 +169,7 @@ class Structure(Value):
 
     def quality(self, uv: ArrayLike) -> Quality:
         """`Quality` of a (#C, 2) UV map on the triangles of `edges`."""
-        return Quality.of(self._triangulation, self._checked_uv(uv), self._threads)
+        return Quality.of(self._triangulation, checked_uv(uv, self._component), self._threads)
 
     def tile(
         self,
@@ -190,7 +191,6 @@ class Structure(Value):
         lines: str = "none",
         marked: ArrayLike | None = None,
         cones: Mapping[int, float] | None = None,
-        surface: Surface | None = None,
         progress: Progress | None = None,
     ) -> Tiling:
         """A `Tiling`: a map of even density without visible seams, for textures that tile.
@@ -215,7 +215,7 @@ class Structure(Value):
             rounding may turn it away
         boundary : "automatic", "straight" or "free", see `Tiler`
         max_added : the largest `added_distortion` that is wanted; default any
-        allowed, surface : as in `tiler`
+        allowed : as in `tiler`
         moves : {index of a pole in the tiling: vertex} that it is moved to after the rounding, see `Tiler.move_poles`
 
         turns : 2, 4 or 6 where the texture looks the same after a half, a quarter or a sixth turn: then the two sides
@@ -232,13 +232,12 @@ class Structure(Value):
         Raises TopologyError for poles that do not fit, for fewer tiles than the surface needs (names how many are
         enough), and for more added distortion than `max_added` (names what can be had). Poles are kept.
         """
-        surface = self._connected if surface is None else surface
         asked = {"lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn, "boundary": boundary}
         asked |= {"max_added": max_added, "allowed": allowed, "moves": () if moves is None else moves}
         asked |= {"turns": asked_turns(turns, texture), "lines": lines, "marked": marked, "cones": cones}
         request = Request(tiles=tiles, density=density, poles=poles, evenness=evenness, **asked)
-        options = request.alone(self._component.area).tiling(surface)
-        return Tiling.of_core(self._core.tile(options, threads=self._threads, progress=progress), surface)
+        options = request.alone(self._component.area).tiling(self._connected)
+        return Tiling.of_core(self._core.tile(options, threads=self._threads, progress=progress), self._connected)
 
     def tiler(
         self,
@@ -247,19 +246,13 @@ class Structure(Value):
         boundary: str = "automatic",
         allowed: ArrayLike | None = None,
         evened: bool = False,
-        surface: Surface | None = None,
         progress: Progress | None = None,
     ) -> Tiler:
         """The `Tiler` of the surface; the last ones are kept, with the poles that they placed, until others are asked
-        for.
-
-        surface : the one whose vertices poles are named by, without its isolated vertices the same as was solved on;
-            default: that of the structure, where it is connected
-        """
-        surface = self._connected if surface is None else surface
-        asked = Request(poles=poles, boundary=boundary, allowed=allowed).tiling(surface)
+        for."""
+        asked = Request(poles=poles, boundary=boundary, allowed=allowed).tiling(self._connected)
         core = self._core.tiler(asked, evened=bool(evened), threads=self._threads, progress=progress)
-        return Tiler.of_core(surface, core, self._threads)
+        return Tiler.of_core(self._connected, core, self._threads)
 
     def averaged_star(self, form: ArrayLike) -> Reals:
         """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an
@@ -271,12 +264,6 @@ class Structure(Value):
         if form.shape != (len(self.edges),):
             raise ValueError(f"form has the shape {form.shape}; ({len(self.edges)},) is needed")
         return form
-
-    def _checked_uv(self, uv):
-        uv = arrays.numbers(uv, "uv")
-        if uv.shape != (len(self._component.corner_vertices), 2):
-            raise ValueError(f"uv has the shape {uv.shape}; ({len(self._component.corner_vertices)}, 2) is needed")
-        return uv
 
     def _at_vertices(self, values, missing=np.nan):
         """Values at the component's vertices as values at the surface's, `missing` at isolated ones."""

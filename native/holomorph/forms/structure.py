@@ -14,8 +14,8 @@ from .. import _native
 from .._native import SolverError, TopologyError
 from ..core import arrays
 from ..core.array_types import Bounds, Complexes, Integers, Progress, Reals
-from ..core.value import plain, quoted
-from ..mesh.checks import check_bounds, check_memory_limit, check_options, check_thresholds, only_component
+from ..core.value import plain
+from ..mesh.checks import check_bounds, check_memory_limit, check_name, check_options, check_thresholds, only_component
 from ..mesh.surface import Surface
 from .certificate import certain_text
 from .form_structure import CertifiedStructure
@@ -81,8 +81,7 @@ def conformal_structure(
     (3, 3) True
     """
     count, narrowing = check_options(solver, threads), check_bounds(bounds, most_faces)
-    if boundary not in BOUNDARIES:
-        raise ValueError(f"boundary is {quoted(boundary)}; one of {', '.join(BOUNDARIES)} is needed")
+    check_name(boundary, BOUNDARIES, "boundary")
     limit, component = check_memory_limit(memory_limit), only_component(surface)
     _check_topology(component)
     options = solver, count, limit, progress

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import math
-import os
 import zlib
 from collections.abc import Sequence
 from functools import cached_property, partial
@@ -22,7 +21,8 @@ from ..core.value import Value, quoted
 from ..files import whole_file
 from ..forms.results import result
 from ..forms.structure import BoundedStructure, ConformalStructure
-from ..mesh.checks import as_float, check_memory_limit, check_options, check_thresholds, check_type
+from ..mesh.checked_mesh import naming
+from ..mesh.checks import as_float, check_memory_limit, check_name, check_options, check_thresholds, check_type
 from ..mesh.origin import Origin
 from ..mesh.surface import Surface
 from . import levels
@@ -97,8 +97,7 @@ class ProgressiveMesh(Value):
         progress: Progress | None = None,
     ) -> None:
         check_type(surface, Surface)
-        if order not in ORDERS:
-            raise ValueError(f"order is {quoted(order)}; one of {', '.join(map(repr, ORDERS))} is needed")
+        check_name(order, ORDERS, "order")
         self.corner_data = None if corner_data is None else _checked(corner_data, len(surface.corner_vertices))
         vertices = arrays.integer(kept if np.size(kept) else np.empty(0, np.int64), "kept")
         if len(vertices) and not 0 <= vertices.min() <= vertices.max() < surface._native.vertex_count:
@@ -115,12 +114,8 @@ class ProgressiveMesh(Value):
             if the file is missing or damaged; every count, index and split is checked.
         """
         mesh = cls.__new__(cls)
-        try:
+        with naming(path):
             mesh.__setstate__(_read(path))
-        except OSError as error:
-            raise InvalidMesh(f"{os.fspath(path)}: {error.strerror}") from error
-        except InvalidMesh as error:
-            raise InvalidMesh(f"{os.fspath(path)}: {error}") from error
         return mesh
 
     def save(self, path: FilePath) -> None:
@@ -294,8 +289,11 @@ def _native_of(given):
 
 
 def _read(path):
-    """{name: array}. Raises InvalidMesh for what is no such file; OSError"""
-    content = whole_file.read(path)
+    """{name: array}. Raises InvalidMesh for what is no such file"""
+    try:
+        content = whole_file.read(path)
+    except OSError as error:
+        raise InvalidMesh(error.strerror) from error
     try:
         with ZipFile(io.BytesIO(content)) as file:
             # Nothing is compressed: a small file does not take much memory.

@@ -1,4 +1,4 @@
-"""Where a surface breaks off or is folded: edges between faces that meet at an angle; surfaces cut open along edges."""
+"""Where a surface breaks off or is folded: edges between faces that meet at an angle."""
 
 from __future__ import annotations
 
@@ -7,25 +7,16 @@ from collections.abc import Sequence
 import numpy as np
 
 from .. import _native
-from ..core import arrays
 from ..core.array_types import Integers, Reals
 from .edges import edge_keys
-from .origin import Origin
 from .surface import Surface
 
-TIP = np.pi / 3  # radians that are missing around a vertex, or too many
 SHARP = 150.0  # degrees between the normals of two faces: a fold, or a blade
 
 
 def is_hard(surface, degrees):
     """(#E,) whether an edge bends by more than an angle."""
     return _native.bends(surface._native) > np.radians(degrees)
-
-
-def breaks(surface):
-    """(#E,) radians by which a surface breaks off at an edge: the bend of its two faces, or the angle between the
-    facets to both sides (mesh/hard_edges.h), if that is more."""
-    return _native.breaks(surface._native)
 
 
 def cuts(parts: Sequence[Surface]) -> tuple[Integers, Integers, Reals, Reals]:
@@ -51,15 +42,6 @@ def cuts(parts: Sequence[Surface]) -> tuple[Integers, Integers, Reals, Reals]:
     return of[pairs], sides, lengths[pairs[0]], _native.seen(_angles(one, -other))
 
 
-def curvature(surface, is_seam=(), most=np.inf):
-    """The sum over the inner vertices of the angle that is missing around each, or too much, in radians.
-
-    is_seam : (#E,) edges whose vertices do not count
-    most : vertices where it is more do not count, such as `TIP`
-    """
-    return _native.curvature(surface._native, is_seam, most)
-
-
 def _joined(arrays):
     return np.concatenate(list(arrays))
 
@@ -67,15 +49,6 @@ def _joined(arrays):
 def _angles(one, other):
     """(n,) radians between (n, 3) vectors."""
     return np.arctan2(np.linalg.norm(np.cross(one, other), axis=1), np.einsum("ij,ij->i", one, other))
-
-
-def cut_open(surface, is_seam):
-    """Cuts the surface open along the edges of this mask, (#E,), but leaves no sliver without the neighbour at its
-    longest side: no part is without area."""
-    native, index = _native.cut_open(surface._native, is_seam)
-    vertex_index = arrays.frozen(surface.vertex_index[index])
-    origin = Origin(vertex_index, surface.face_index, surface.corner_index, surface.given_vertex_count, up=surface.up)
-    return Surface._of(native, origin)
 
 
 def next_sides(sides: Integers) -> Integers:

@@ -18,8 +18,9 @@ from ..core.progress import scaled
 from ..core.value import Value, counted
 from ..forms.refined_triangles import areas
 from ..forms.structure import BoundedStructure, ConformalStructure
-from ..mesh.double import double_cover
+from ..mesh.checks import checked_uv
 from ..mesh.surface import Surface
+from ..mesh.surgery import double_cover
 from .equivalence import AGREEING, Equivalence, by_topology, checked_tolerance, compared, side_of
 
 STARTS = 12  # points of the second surface that are tried for one of the first
@@ -75,10 +76,7 @@ class ConformalMap(Value):
 
         Raises ValueError for another shape or numbers that are not finite; Cancelled. Cost: linear."""
         first, second = self._surfaces
-        uv = np.asarray(uv, dtype=np.float64)
-        count = len(second.corner_vertices)
-        if uv.shape != (count, 2) or not np.isfinite(uv).all():
-            raise ValueError(f"uv has the shape {uv.shape}; ({count}, 2) finite numbers are needed")
+        uv = checked_uv(uv, second, is_finite=True)
         return _native.carried_uv(first._native, self.triangles, self.barycentric, second._native, uv, progress)
 
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from numpy.typing import ArrayLike
 
 from .. import _native
-from ..core import arrays
-from ..mesh.checks import real_number
+from ..mesh.checks import checked_uv, real_number
 from ..mesh.surface import Surface
 
 
@@ -41,7 +40,5 @@ def frame(surface: Surface, uv: ArrayLike, rotation: float = 0.0) -> Frame:
     >>> print(holomorph.frame(square, uv, rotation=np.pi / 2).area)
     2.0
     """
-    uv, count = arrays.numbers(uv, "uv"), len(surface.corner_vertices)
-    if uv.shape != (count, 2):
-        raise ValueError(f"uv has the shape {uv.shape}; ({count}, 2) is needed")
+    uv = checked_uv(uv, surface)
     return Frame(*_native.frame(surface._native, uv, rotation=real_number(rotation, "rotation"), threads=0))

@@ -18,10 +18,10 @@ from ..core.value import plain
 from ..forms.log_map import PoleStructure, pole_structure_of
 from ..forms.narrow_bounds import Refinement, narrow
 from ..forms.results import SolverReport, Structure, result
-from ..mesh.checks import check_bounds, check_options, checked_coefficients, only_component, own_vertices
-from ..mesh.double import glued_copies
+from ..mesh.checks import check_bounds, check_options, checked_coefficients, checked_uv, only_component, own_vertices
 from ..mesh.edges import boundary_corners
 from ..mesh.surface import Surface
+from ..mesh.surgery import glued_copies
 from ..quality.appearance import overlapping_part
 from ..quality.quality import Quality
 from ..tiling.request import part_of
@@ -185,7 +185,7 @@ class FreeBoundaryMap(PlaneMap):
         """`Quality` of a (#C, 2) UV map that is continuous, also of how much it covers itself."""
         found = super().quality(uv)
         border = boundary_corners(self._component)
-        return replace(found, overlapping_part=overlapping_part((self._checked_uv(uv) @ [1, 1j])[border]))
+        return replace(found, overlapping_part=overlapping_part((checked_uv(uv, self._component) @ [1, 1j])[border]))
 
     def invariants(self) -> dict[str, Any]:
         """Nothing: all disks are alike."""

@@ -60,12 +60,6 @@ class Direction(Value):
         """That of what the core measured."""
         return cls(found.angle, found.steep, found.area, up, found.turns)
 
-    def under(self, turns: int) -> Direction:
-        """That of the same map under a texture that looks the same after k-th parts of a full turn."""
-        period = 360 / turns
-        angle = np.abs(self.angle - period * np.round(self.angle / period))
-        return replace(self, angle=arrays.frozen(angle), turns=turns)
-
     @property
     def of_core(self) -> _native.Direction:
         """The core's own value."""

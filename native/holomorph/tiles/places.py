@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -205,18 +205,14 @@ class Cells(SurfacePoints):
         number = np.cumsum(kept) - 1
         is_kept = kept[self.corner_vertices]
         counts = np.concatenate([[0], np.cumsum(is_kept)])
-        return Cells(
+        return replace(
+            self,
             corner_vertices=arrays.frozen(number[self.corner_vertices[is_kept]].astype(np.int32)),
             face_offsets=arrays.frozen(counts[self.face_offsets].astype(np.int32)),
             uv=arrays.frozen(self.uv[is_kept]),
             is_corner=arrays.frozen(self.is_corner[is_kept]),
-            tiles=self.tiles,
-            poles=self.poles,
-            is_quad=self.is_quad,
-            is_whole=self.is_whole,
             triangles=arrays.frozen(self.triangles[used]),
             barycentric=arrays.frozen(self.barycentric[used]),
-            tiled=self.tiled,
             _is_needed=arrays.frozen(np.ones(len(used), bool)),
         )
 

@@ -15,9 +15,9 @@ from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import Integers, Progress, Reals
 from ..core.value import Value, counted, quoted
-from ..mesh.checks import check_options, check_type
+from ..mesh.checks import check_options, check_type, checked_uv
 from ..mesh.surface import Surface
-from ..tiling.request import MOST_PER_TILE, TURNS, generators
+from ..tiling.request import MOST_PER_TILE, checked_turns, generators
 from .places import Cells, Lines, Places
 from .relief import Relief, raised
 from .turned_surface import Curves, check_grid, directions, joined, opened
@@ -56,16 +56,12 @@ class TiledSurface(Value):
         if surface.vertices is None:
             raise TopologyError("tiles need a surface with positions; this one has edge lengths only")
         self._threads = check_options("auto", threads)
-        given, count = arrays.numbers(uv, "uv"), len(surface.corner_vertices)
-        if given.shape != (count, 2):
-            raise ValueError(f"uv has the shape {given.shape}; ({count}, 2) is needed")
+        given = checked_uv(uv, surface)
         self.surface: Surface = surface
         self.uv: Reals = arrays.frozen(given.copy()) if given.flags.writeable else given
         a, b = generators(lattice)
         self.lattice: Reals = arrays.frozen(np.array([[a.real, b.real], [a.imag, b.imag]]))
-        if turns not in TURNS:
-            raise ValueError(f"turns is {quoted(turns)}; one of {', '.join(map(str, TURNS))} is needed")
-        self.turns: int = turns
+        self.turns: int = checked_turns(turns)
         poles = self._coordinates().poles()
         self.poles: Integers = arrays.frozen(self._opened.vertices[poles]) if self._opened else poles
 
@@ -229,8 +225,7 @@ class TiledSurface(Value):
         Cancelled. Cost: n log n in the triangles that are made.
         """
         self._refuse_sixths("a relief")
-        count = _count(repeats, "repeats")
-        return raised(self, heights, depth, count, level, tolerance, most_triangles, pole_fade, progress)
+        return raised(self, heights, depth, repeats, level, tolerance, most_triangles, pole_fade, progress)
 
     def _check_cells(self, per_tile, shifted_rows):
         self._refuse_sixths("cells")

@@ -40,7 +40,6 @@ WHOLE = 1e-6  # part of a turn: less is rounding
 MOST_PARTS = 1200  # of a turn around one cone: all that any use has, and no sum of them overflows
 LINES = ("none", "whole", "free", "mirror")  # along edges, and the one between two halves that are alike
 AUTOMATIC = "automatic"  # the lines that cost little
-FITTING = {"poles": ("auto", 0), "turn": (0.0,), "boundary": ("automatic",), "allowed": (), "moves": ({}, ())}
 Moves: TypeAlias = Mapping[int, int] | Sequence[tuple[int, int]]
 Size: TypeAlias = tuple[float, int, float | None, tuple[float, float] | None, float]  # values of a `_native.SizePolicy`
 
@@ -99,11 +98,9 @@ class Request:
         check_chosen(self.marked, self.cones)
         if self.cones is not None and (self.turns == 1 or self.lines != "none"):
             raise ValueError("cones can be chosen for tilings that turn by 2, 4 or 6 and have no lines")
-        fitting = FITTING | {"lattice": ("square", LATTICE.get(self.turns))}
-        for name, known in fitting.items() if self.turns != 1 else ():
-            given = getattr(self, name)
-            if isinstance(given, np.ndarray) or given not in (*known, None):
-                raise ValueError(f"{name} is {quoted(given)}; a tiling that turns has no such choice: take turns=1")
+        lattice = self.lattice if isinstance(self.lattice, str) else None
+        if self.turns != 1 and lattice not in ("square", LATTICE.get(self.turns)):
+            raise ValueError(f"lattice is {quoted(self.lattice)}; a tiling that turns has no such choice: take turns=1")
         return self if self.density is None else replace(self, tiles=self._density * area, density=None)
 
     def size_of(self, parts: Sequence[Surface]) -> Size:

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from holomorph import _native, automatic_map
 from holomorph.mesh.edges import edge_keys
-from holomorph.mesh.hard_edges import cut_open
+from holomorph.mesh.surgery import cut_open
 from limbed import limbs, open_limbs, spikes
 from solved import surface_of
 
