@@ -178,7 +178,7 @@ MUTATIONS = (
         ("similar-strict", "(size(a) + size(b))", "0", SIMILAR),
     )
     | of(
-        PACKAGE + "moduli/siegel.py",
+        PACKAGE + "moduli/symplectic.py",
         ("theta-terms", "SMALLEST_TERM = 40.0", "SMALLEST_TERM = 10.0", THETA),
     )
     # Period matrices that are given.

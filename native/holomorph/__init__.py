@@ -60,8 +60,9 @@ from .moduli.equivalence import Equivalence as Equivalence, conformally_equivale
 from .forms.form_structure import FundamentalDomain as FundamentalDomain, Zeros as Zeros
 from .tiles.height_image import height_image as height_image
 from .mesh.surgery import punch_holes as punch_holes
-from .moduli.siegel import SiegelReduction as SiegelReduction, igusa_invariants as igusa_invariants
-from .moduli.siegel import siegel_reduction as siegel_reduction
+from .moduli.symplectic import Automorphisms as Automorphisms, automorphisms as automorphisms
+from .moduli.symplectic import igusa_invariants as igusa_invariants, siegel_reduction as siegel_reduction
+from .moduli.symplectic import SiegelReduction as SiegelReduction
 from .tiling.images import ImageLattice as ImageLattice, ImageTurns as ImageTurns, image_lattice as image_lattice
 from .tiling.images import image_turns as image_turns
 from .levels.levels import LevelOfDetail as LevelOfDetail
@@ -75,7 +76,6 @@ from .tiles.relief import Relief as Relief
 from .mesh.origin import Cut as Cut, Refused as Refused, Repairs as Repairs
 from .forms.results import MemoryPlan as MemoryPlan, Residuals as Residuals, SolverReport as SolverReport
 from .mesh.surface import Surface as Surface
-from .moduli.symmetries import Automorphisms as Automorphisms, automorphisms as automorphisms
 from .tiles.tiled_surface import TiledSurface as TiledSurface
 from .tiling.tiling import PlacedPoles as PlacedPoles, Rounding as Rounding, Tiler as Tiler, Tiling as Tiling
 from .tiling.tiling import place_poles as place_poles

@@ -48,14 +48,6 @@ class FundamentalDomain(Value):
         return [counted(len(self.faces), "triangle"), counted(len(self.boundary), "boundary edge")]
 
 
-def domain_and_tree(native, edges):
-    """The `FundamentalDomain` of a native structure with these edges, (#E, 2) vertices, and the spanning tree."""
-    faces, joined, half_edges, tree, left_over = native.fundamental_domain()
-    ends = edges[half_edges >> 1]
-    ends = np.where((half_edges & 1).astype(bool)[:, None], ends[:, ::-1], ends)
-    return FundamentalDomain(faces, joined, arrays.frozen(ends), arrays.frozen(half_edges >> 1), left_over), tree
-
-
 @dataclass(frozen=True, eq=False, repr=False)
 class Zeros(Value):
     """The zeros of a differential, where its UV map branches.
@@ -165,7 +157,8 @@ class FormStructure(Structure):
 
     def vectors(self, form: ArrayLike) -> Reals | Complexes:
         """(#T, 3) one closed form, (#E,) real or complex, as a vector of each triangle of the triangulation: in its
-        plane, with the form's values as products with its sides (paper Eq. 9). NaN in triangles without area.
+        plane, with the form's values as products with its sides (paper Eq. 9): of sides 0 and 2, which start and end at
+        the first corner. NaN in triangles without area.
 
         The star turns the vectors by a right angle. Raises InvalidMesh for an intrinsic surface."""
         form = np.asarray(form)
@@ -173,7 +166,20 @@ class FormStructure(Structure):
             form = self._checked_form(form.real) + 1j * self._checked_form(form.imag)
         else:
             form = self._checked_form(form)
-        return vectors(self._triangulation, form)
+        surface = self._triangulation
+        if surface.intrinsic:
+            raise InvalidMesh("vectors need positions, and this surface has edge lengths only")
+        first, second, third = np.moveaxis(surface.vertices[surface.triangles], 1, 0)
+        ahead, back = second - first, third - first
+        normal = np.cross(ahead, back)
+        sides = surface.triangle_edges[:, [0, 2]]
+        start, end = surface.triangles[:, [0, 0]], surface.triangles[:, [1, 2]]
+        along = np.where(start < end, form[sides], -form[sides])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            field = along[:, :1] * np.cross(back, normal) + along[:, 1:] * np.cross(normal, ahead)
+            field /= (normal**2).sum(axis=1)[:, None]
+        field[~np.isfinite(field)] = np.nan
+        return arrays.frozen(field)
 
     def uv(self, coefficients: ArrayLike) -> Reals:
         """(#C, 2) UVs of the differential sum_j c_j theta_j, one coefficient c_j for each: complex, real on surfaces
@@ -240,30 +246,12 @@ class CertifiedStructure(FormStructure):
 
     @cached_property
     def _domain_and_tree(self):
-        return domain_and_tree(self._native, self.edges)
+        faces, joined, half_edges, tree, left_over = self._native.fundamental_domain()
+        ends = self.edges[half_edges >> 1]
+        ends = np.where((half_edges & 1).astype(bool)[:, None], ends[:, ::-1], ends)
+        return FundamentalDomain(faces, joined, arrays.frozen(ends), arrays.frozen(half_edges >> 1), left_over), tree
 
     @cached_property
     def certificate(self) -> Certificate:
         """`Certificate`: the bounds, whether they are proven for the surface as given, and what was measured."""
         return certificate(self)
-
-
-def vectors(surface, form):
-    """(#T, 3) the tangent vector X of each triangle with X . e = form(e) on its sides, for a closed form, (#E,) real or
-    complex: of sides 0 and 2, which start and end at the first corner. NaN in triangles without area.
-
-    Raises InvalidMesh for an intrinsic surface, which has no tangent vectors in space.
-    """
-    if surface.intrinsic:
-        raise InvalidMesh("vectors need positions, and this surface has edge lengths only")
-    first, second, third = np.moveaxis(surface.vertices[surface.triangles], 1, 0)
-    ahead, back = second - first, third - first
-    normal = np.cross(ahead, back)
-    sides = surface.triangle_edges[:, [0, 2]]
-    start, end = surface.triangles[:, [0, 0]], surface.triangles[:, [1, 2]]
-    along = np.where(start < end, form[sides], -form[sides])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        field = along[:, :1] * np.cross(back, normal) + along[:, 1:] * np.cross(normal, ahead)
-        field /= (normal**2).sum(axis=1)[:, None]
-    field[~np.isfinite(field)] = np.nan
-    return arrays.frozen(field)

@@ -63,7 +63,9 @@ def log_map(
         native = _native.pole_structure(component._native, vertices, given, labels, solver, count, limit, progress)
         made = result(PoleStructure, surface, component, native, count)
     else:
-        made = sphere_structure(surface, component, solver, count, limit, progress)
+        options = {"solver": solver, "threads": count, "memory_limit": limit, "progress": progress}
+        core = _native.automatic_structure(part_of(surface, component), **options)
+        made = pole_structure_of(core, surface, component, count)
     own = np.array(poles).tolist() if vertices else None  # the caller's list may change
     options = {"solver": solver, "threads": threads, "memory_limit": memory_limit}
     return made.computed_by(partial(log_map, surface, own, given or None, **options))
@@ -137,14 +139,6 @@ def _text(residue):
     if residue.imag == 0:
         return f"{residue.real:g}"
     return f"{residue.real:g}{residue.imag:+g}i"
-
-
-def sphere_structure(surface, component, solver, threads, memory_limit, progress):
-    """The `PoleStructure` of a closed surface of genus 0 with poles that the core chooses."""
-    options = {"solver": solver, "threads": threads, "memory_limit": memory_limit, "progress": progress}
-    return pole_structure_of(
-        _native.automatic_structure(part_of(surface, component), **options), surface, component, threads
-    )
 
 
 def pole_structure_of(core, surface, component, threads):

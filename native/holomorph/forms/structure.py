@@ -173,12 +173,9 @@ class ConformalStructure(CertifiedStructure):
 
     def invariants(self) -> dict[str, Any]:
         """The period matrix with its bounds, as plain data."""
-        values = {
-            "conventions": "a_i.b_j = delta_ij; theta_j has period 1 over a_j; Omega_ij is its integral over b_i",
-            "period_matrix": self.period_matrix,
-            "period_bounds": self.period_bounds,
-        }
-        return plain(values)
+        conventions = "a_i.b_j = delta_ij; theta_j has period 1 over a_j; Omega_ij is its integral over b_i"
+        bounds = {"period_matrix": self.period_matrix, "period_bounds": self.period_bounds}
+        return plain({"conventions": conventions, **bounds})
 
 
 @dataclass(frozen=True, eq=False, repr=False)

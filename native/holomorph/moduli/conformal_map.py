@@ -302,14 +302,10 @@ def _boundary_sides(surface):
     return np.argwhere(on_boundary[surface.triangle_edges])
 
 
-def _signs(surface, triangles=slice(None)):
-    """+1 where a side runs along its edge: no edge is a loop."""
-    corners = surface.triangles[triangles]
-    return np.where(corners < np.roll(corners, -1, axis=1), 1, -1)
-
-
 def _along_sides(surface, values, triangles=slice(None)):
-    return values * _signs(surface, triangles)
+    """The values on edges along the sides, of which none is a loop."""
+    corners = surface.triangles[triangles]
+    return values * np.where(corners < np.roll(corners, -1, axis=1), 1, -1)
 
 
 def _on_double(surface, double, forms, parity):

@@ -119,20 +119,12 @@ class Relief(Value):
 def joined(reliefs: Sequence[Relief]) -> Relief:
     """Joins several reliefs of one depth to one; those of `plain` may be among them."""
     first = np.cumsum([0, *(len(one.base) for one in reliefs)], dtype=np.int32)
-    arrays_of = {
-        name: arrays.frozen(np.concatenate([getattr(one, name) for one in reliefs]))
-        for name in ("base", "heights", "uv", "faces", "_offsets")
-    }
-    return Relief(
-        triangles=arrays.frozen(
-            np.concatenate([one.triangles + at for one, at in zip(reliefs, first)]).astype(np.int32)
-        ),
-        depth=max(one.depth for one in reliefs),
-        error=max(one.error for one in reliefs),
-        is_full=any(one.is_full for one in reliefs),
-        _threads=reliefs[0]._threads,
-        **arrays_of,
-    )
+    names = "base", "heights", "uv", "faces", "_offsets"
+    whole = {name: np.concatenate([getattr(one, name) for one in reliefs]) for name in names}
+    whole["triangles"] = np.concatenate([one.triangles + at for one, at in zip(reliefs, first)]).astype(np.int32)
+    depth, error = (max(getattr(one, name) for one in reliefs) for name in ("depth", "error"))
+    known = {"depth": depth, "error": error, "is_full": any(one.is_full for one in reliefs)}
+    return replace(reliefs[0], **{name: arrays.frozen(array) for name, array in whole.items()}, **known)
 
 
 def plain(surface: Surface) -> Relief:

@@ -95,7 +95,6 @@ class Request:
         """The same of one tiling over this area. Raises ValueError for choices of which it has one or the other; of a
         map the core leaves some out."""
         checked_lines(self.lines, self.turns)
-        check_chosen(self.marked, self.cones)
         if self.cones is not None and (self.turns == 1 or self.lines != "none"):
             raise ValueError("cones can be chosen for tilings that turn by 2, 4 or 6 and have no lines")
         lattice = self.lattice if isinstance(self.lattice, str) else None

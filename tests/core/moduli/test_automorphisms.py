@@ -8,7 +8,7 @@ from equivalence import distance_or_mirrored, gram_of, random_symplectic, symple
 from flint import acb
 from holomorph import _native, automorphisms, conformal_structure, siegel_reduction
 from holomorph.moduli.equivalence import period_lattice
-from holomorph.moduli.siegel import moved
+from holomorph.moduli.symplectic import moved
 from known_matrices import BOLZA, LAWSON
 from shared_data import reference_surface
 from solved import surface_of

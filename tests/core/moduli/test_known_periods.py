@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from holomorph import conformally_equivalent
 from holomorph.forms.certificate import PeriodMatrix, distance_within
-from holomorph.moduli.siegel import siegel_reduction
+from holomorph.moduli.symplectic import siegel_reduction
 from known_matrices import BOLZA
 
 
