@@ -127,9 +127,8 @@ class Output:
     formats: tuple = _option(
         ("npz",), f"a list of {', '.join(FORMATS)}", lambda value: _is_list(value, FORMATS.__contains__)
     )
-    texture: str | None = _option(
-        None, '"checker" or a PNG or JPEG file', lambda value: isinstance(value, str)
-    )  # of glb
+    # It is on the meshes of glb files.
+    texture: str | None = _option(None, '"checker" or a PNG or JPEG file', lambda value: isinstance(value, str))
     up: str | None = _option(None, '"Y" or "Z"', lambda value: value in ("Y", "Z"))  # of mesh files; OBJ Y, others Z
 
 

@@ -140,19 +140,11 @@ class Origin(NamedTuple):
     @classmethod
     def of_part(cls, part, up="Z"):
         """The `Origin` of the surface in a native part of a mesh."""
-        return cls(
-            part.vertex_index,
-            part.face_index,
-            part.corner_index,
-            part.given_vertex_count,
-            tuple(Cut(*cut) for cut in part.cuts),
-            arrays.frozen(np.array(part.joined_vertices, np.int32).reshape(-1, 2)),
-            tuple(Refused(*entry) for entry in part.refused),
-            arrays.frozen(np.array(part.repeated_corners, np.int32).reshape(-1, 2)),
-            part.point_faces,
-            tuple(part.notes),
-            up,
-        )
+        indices = part.vertex_index, part.face_index, part.corner_index, part.given_vertex_count
+        cuts, refused = tuple(Cut(*cut) for cut in part.cuts), tuple(Refused(*entry) for entry in part.refused)
+        pairs = part.joined_vertices, part.repeated_corners
+        joined, repeated = (arrays.frozen(np.array(each, np.int32).reshape(-1, 2)) for each in pairs)
+        return cls(*indices, cuts, joined, refused, repeated, part.point_faces, tuple(part.notes), up)
 
     def of_component(self, part, vertex_count):
         """The `Origin` of a native part of the surface, in a mesh with this number of vertices."""

@@ -280,16 +280,15 @@ def _bounded_sides(a, b, found):
     sign = -1 if found.verdict == "mirror_image" else 1
     matrix = whiten @ found.matrix
     forms = np.concatenate([matrix @ a.dirichlet_forms, sign * matrix @ _conjugates(a)])
-    first, second = (
-        {"starts": _boundary_sides(side), "is_at_corner": True, "own_count": len(side.triangles)}
-        for side in (a._triangulation, b._triangulation)
-    )
-    double = double_cover(Surface._of(b._triangulation))._native
-    parts = [
-        _on_double(b._triangulation, double, whiten @ values, parity)
-        for values, parity in ((b.dirichlet_forms, -1), (_conjugates(b), 1))
-    ]
-    return Side(a._triangulation, forms, **first), Side(double, np.concatenate(parts), **second)
+    first, second = a._triangulation, b._triangulation
+    double = double_cover(Surface._of(second))._native
+    both = (b.dirichlet_forms, -1), (_conjugates(b), 1)
+    parts = [_on_double(second, double, whiten @ values, parity) for values, parity in both]
+    return _bounded_side(first, first, forms), _bounded_side(double, second, np.concatenate(parts))
+
+
+def _bounded_side(surface, own, forms):
+    return Side(surface, forms, _boundary_sides(own), is_at_corner=True, own_count=len(own.triangles))
 
 
 def _conjugates(structure):
