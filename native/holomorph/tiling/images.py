@@ -20,6 +20,7 @@ OFF_LATTICE = 5e-4  # part of an image's variance that a translation may change:
 MOST_PIXELS = 1024  # a side, for translations: finer differences between cells are not seen
 PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31)  # of which the number of cells in an image is a product
 LIKE_HEXAGONS = 0.02  # relative difference of a cell's height from that of regular hexagons
+IDENTITY = np.array([[Fraction(1), Fraction(0)], [Fraction(0), Fraction(1)]])  # exact, as are the lattices made of it
 BORDERS = ("left and right", "lower and upper")
 ALIKE = 0.9  # least correlation with itself turned: what differs then is seen as grain, not as a seam
 SIDE = 256  # pixels, at most, of what is turned: finer differences are grain
@@ -78,7 +79,7 @@ def image_lattice(pixels: ArrayLike) -> ImageLattice:
     height, width = values.shape[:2]
     jumps = (_jump(values.transpose(1, 0, 2)), _jump(values))
     differing = [name for name, jump in zip(BORDERS, jumps) if jump > JUMP]
-    found = _identity()
+    found = IDENTITY
     if differing:
         text = f"Does not tile: its {' and its '.join(f'{name} borders' for name in differing)} differ"
     elif np.ptp(values, axis=(0, 1)).max() == 0:
@@ -133,16 +134,12 @@ def reduced(values, count):
     return np.add.reduceat(values, begins, axis=0) / sizes[:, None, None]
 
 
-def _identity():
-    return [[Fraction(1), Fraction(0)], [Fraction(0), Fraction(1)]]
-
-
 def _translations(values):
     """(2, 2) fractions of the image's sides, the first column along u."""
     for _ in range(2):
         values = reduced(values, min(len(values), MOST_PIXELS)).swapaxes(0, 1)
     frequencies, power = _spectrum(values)
-    basis, allowed = _identity(), OFF_LATTICE * power.sum()
+    basis, allowed = IDENTITY, OFF_LATTICE * power.sum()
     while len(power):
         found = _finer(frequencies, power, allowed)
         if found is None:
@@ -150,10 +147,10 @@ def _translations(values):
         step, is_kept = found
         allowed -= power[~is_kept].sum()
         frequencies, power = frequencies[is_kept], power[is_kept]
-        basis = _product(basis, step)
+        basis = basis @ step
         # In the vectors of the finer lattice frequencies are whole numbers again.
-        scale = math.lcm(*(entry.denominator for row in step for entry in row))
-        frequencies = frequencies @ np.array([[int(scale * e) for e in row] for row in step]) // scale
+        scale = math.lcm(*(entry.denominator for entry in step.flat))
+        frequencies = frequencies @ (scale * step).astype(np.int64) // scale
     return _along_rows(basis)
 
 
@@ -185,8 +182,8 @@ def _finer(frequencies, power, allowed):
     if best is None:
         return None
     prime, x, y = best
-    part = Fraction(1, prime)
-    step = [[part, Fraction(0)], [y * part, Fraction(1)]] if x else [[Fraction(1), Fraction(0)], [Fraction(0), part]]
+    step = IDENTITY.copy()
+    step[:, 0 if x else 1] = np.array([x, y]) * Fraction(1, prime)
     return step, (frequencies @ (x, y)) % prime == 0
 
 
@@ -195,10 +192,6 @@ def _common_line(frequencies, power, allowed):
     strong = frequencies[np.argmax(power)]
     is_off = frequencies[:, 0] * strong[1] != frequencies[:, 1] * strong[0]
     return None if power[is_off].sum() > allowed else strong // math.gcd(*strong.tolist())
-
-
-def _product(a, b):
-    return [[sum(a[i][k] * b[k][j] for k in range(2)) for j in range(2)] for i in range(2)]
 
 
 def _along_rows(basis):
