@@ -19,9 +19,9 @@ from ..commands.console import Parser, failed, say, shown, tell
 from ..core.value import counted
 from ..files.names import marked, part, told_apart
 from ..quality.verdicts import LEVELS
-from . import DONE, EngineError, StorageError, UsageError, blend, overview, recipe, sources, workers
+from . import DONE, EngineError, StorageError, UsageError, overview, recipe, sources, workers
 from .journal import RECORD, Journal, noted, stored, storing
-from .task import Limits, Task
+from .task import OBJECTS, Limits, Task, blender_program, objects
 
 LONGEST = 1000  # of the whole path below the output folder; systems take 4096
 ASSETS, SCENES = "assets", ".blend"  # folders of the results: of assets, and of what Blender read of scenes
@@ -76,7 +76,7 @@ class Plan:
         return self._task(source.name, digest, source.path, source.size, place, recipe, problem=problem)
 
     def _objects(self, opening):
-        found = blend.objects(opening.folder)
+        found = objects(opening.folder)
         folders = told_apart([name for name, *_ in found], part)
         for name, path, corners in found:
             shown = name.replace("%", "%25").replace("/", "%2F")
@@ -95,7 +95,7 @@ class Plan:
 def _is_read(opening):
     """Whether its objects are there, as they were listed: a record of another shape is that of another program."""
     is_own = noted(opening) is not None or not (opening.folder / RECORD).exists()
-    return is_own and (opening.folder / blend.OBJECTS).exists()
+    return is_own and (opening.folder / OBJECTS).exists()
 
 
 def _examined(source):
@@ -160,7 +160,7 @@ def _run(options):
     found = sources.find(options.source, options.out)
     wanted = recipe.read(options.recipe) if options.recipe else recipe.Recipe()
     needs_blender = "blend" in wanted.output.formats or any(sources.is_scene(s.path) for s in found)
-    program = blend.program(options.blender) if needs_blender else ""
+    program = blender_program(options.blender) if needs_blender else ""
     number, count = options.share or (1, 1)
     journal = Journal(os.path.realpath(options.out), "{}-of-{}".format(*options.share) if options.share else "")
     execute, limits = _engine(options)
