@@ -212,7 +212,7 @@ MUTATIONS = (
     | of(
         PACKAGE + "quality/verdicts.py",
         ("unseen", "UNSEEN = 0.3", "UNSEEN = 0.6", EVENED),
-        ("by-area", 'weights @ lists["cost"]', 'np.mean(lists["cost"])', VERDICT),
+        ("by-area", "weights @ lists[name]", "np.mean(lists[name])", VERDICT),
         ("told-overlaps", "cost(quality, seen) - of_overlaps(quality)", "cost(quality, seen)", VERDICT),
         ("little-tiled", "TILED = 0.1 ", "TILED = 0.05 ", VERDICT),
         ("whole-cost", "cost(quality) + seen.cost", "cost(quality)", VERDICT),

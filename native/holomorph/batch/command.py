@@ -121,9 +121,8 @@ def main(arguments):
     except EngineError as error:
         return failed(ENGINE, f"{error}; the same command continues")
     except (OSError, MemoryError, ImportError) as error:  # the last of a library that finds no memory
-        return failed(
-            MACHINE, f"this machine does not provide what the run needs: {_reason(error)}; the same command continues"
-        )
+        told = f"this machine does not provide what the run needs: {_reason(error)}; the same command continues"
+        return failed(MACHINE, told)
 
 
 def _reason(error):
@@ -186,9 +185,8 @@ def _exit_code(records, options):
     unfit = [record["name"] for record in records if record.get("verdict") in UNFIT or record.get("skipped")]
     if not (options.strict and unfit):
         return ALL_DONE
-    return failed(
-        STRICT, f"poor or unusable map, or parts without a map: {counted(len(unfit), 'asset')}; the first is {unfit[0]}"
-    )
+    count = counted(len(unfit), "asset")
+    return failed(STRICT, f"poor or unusable map, or parts without a map: {count}; the first is {unfit[0]}")
 
 
 def _engine(options):

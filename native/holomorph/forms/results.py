@@ -284,6 +284,5 @@ def result(kind, surface, component, native, threads, **more):
     seconds["total"] = sum(seconds.values())
     found = native.residuals()
     residuals = kind.residuals_kind(**{entry.name: getattr(found, entry.name) for entry in fields(kind.residuals_kind)})
-    return kind(
-        surface, SolverReport.of(native.solver()), residuals, seconds, Solution(native), component, threads, **more
-    )
+    report, solution = SolverReport.of(native.solver()), Solution(native)
+    return kind(surface, report, residuals, seconds, solution, component, threads, **more)

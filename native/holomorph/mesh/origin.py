@@ -164,15 +164,10 @@ class Origin(NamedTuple):
 
     def repairs(self, native):
         """The `Repairs` of the native surface."""
-        return Repairs(
-            _in_mesh(self.face_index, native.reversed_faces),
-            _joined_faces(_in_mesh(self.face_index, native.zero_area_faces), self.point_faces),
-            _in_mesh(self.vertex_index, native.isolated_vertices),
-            self.cuts,
-            arrays.frozen(self.joined[:, 0]),
-            native.mollification(),
-            self.notes,
-        )
+        turned, flat = (_in_mesh(self.face_index, each) for each in (native.reversed_faces, native.zero_area_faces))
+        isolated, joined = _in_mesh(self.vertex_index, native.isolated_vertices), arrays.frozen(self.joined[:, 0])
+        flat = _joined_faces(flat, self.point_faces)
+        return Repairs(turned, flat, isolated, self.cuts, joined, native.mollification(), self.notes)
 
 
 AS_GIVEN = Origin()

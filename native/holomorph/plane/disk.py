@@ -332,9 +332,8 @@ def default_disk_map(surface, *, solver, threads, progress) -> PlaneMap | PoleSt
     """
     component, count = only_component(surface), check_options(solver, threads)
     options = {"solver": solver, "threads": count, "memory_limit": 0, "progress": progress}
-    made = disk_structure_of(
-        _native.automatic_structure(part_of(surface, component), **options), surface, component, count
-    )
+    core = _native.automatic_structure(part_of(surface, component), **options)
+    made = disk_structure_of(core, surface, component, count)
     return made.computed_by(partial(default_disk_map, surface, solver=solver, threads=threads, progress=None))
 
 

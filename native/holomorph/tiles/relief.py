@@ -129,19 +129,11 @@ def joined(reliefs: Sequence[Relief]) -> Relief:
 
 def plain(surface: Surface) -> Relief:
     """The `Relief` of a surface without heights, which stays as it is."""
-    count = len(surface.triangles)
-    return Relief(
-        base=surface.vertices,
-        heights=np.zeros(len(surface.vertices)),
-        triangles=surface.triangles,
-        uv=np.zeros((3 * count, 2)),
-        faces=surface.face_index[surface.triangle_faces],
-        depth=0.0,
-        error=0.0,
-        is_full=False,
-        _offsets=np.zeros_like(surface.vertices),
-        _threads=check_options("auto", None),
-    )
+    shapes = {"heights": len(surface.vertices), "uv": (surface.triangles.size, 2), "_offsets": surface.vertices.shape}
+    zeros = {name: arrays.frozen(np.zeros(shape)) for name, shape in shapes.items()}
+    faces = surface.face_index[surface.triangle_faces]
+    lies = {"base": surface.vertices, "triangles": surface.triangles, "faces": arrays.frozen(faces)}
+    return Relief(**lies, **zeros, depth=0.0, error=0.0, is_full=False, _threads=check_options("auto", None))
 
 
 def raised(
@@ -168,18 +160,10 @@ def raised(
         progress=progress,
     )
     tiles = found.tiles.reshape(-1, 2) / repeats
-    return Relief(
-        base=found.positions,
-        heights=found.heights,
-        triangles=found.triangles,
-        uv=arrays.frozen(tiles @ tiled.lattice.T),
-        faces=arrays.frozen(surface.face_index[surface.triangle_faces[found.parents]]),
-        depth=depth,
-        error=found.error,
-        is_full=found.is_full,
-        _offsets=found.offsets,
-        _threads=tiled._threads,
-    )
+    uv, faces = tiles @ tiled.lattice.T, surface.face_index[surface.triangle_faces[found.parents]]
+    same = {name: getattr(found, name) for name in ("heights", "triangles", "error", "is_full")}
+    own = {"base": found.positions, "uv": arrays.frozen(uv), "faces": arrays.frozen(faces), "_offsets": found.offsets}
+    return Relief(**own, **same, depth=depth, _threads=tiled._threads)
 
 
 def check_choices(repeats, level, tolerance, most_triangles):

@@ -302,10 +302,8 @@ def missing_turns(surface: Surface, component: Surface, cones: Mapping[int, floa
     off = np.abs(np.multiply(angles, turns) - parts)
     wrong = np.flatnonzero((off > WHOLE) | (parts < 1) | (parts > MOST_PARTS))
     if len(wrong):
-        wanted = f"{turns}, whole parts of a turn, up to {MOST_PARTS // turns}"
-        raise ValueError(
-            f"the angle around a cone is {angles[wrong[0]]:.6g} turns; multiples of 1/{wanted}, are needed"
-        )
+        wanted = f"multiples of 1/{turns}, whole parts of a turn, up to {MOST_PARTS // turns}, are needed"
+        raise ValueError(f"the angle around a cone is {angles[wrong[0]]:.6g} turns; {wanted}")
     missing = np.zeros(len(component.vertices), np.int64)
     missing[vertices] = turns - parts.astype(np.int64)
     edge = np.flatnonzero(np.isin(vertices, boundary_edges(component)))
