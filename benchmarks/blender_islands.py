@@ -55,7 +55,7 @@ def pack():
 
 def measured(holomorph, surface, obj):
     """The quality of the active UV map."""
-    from holomorph.quality.overlap import overlapping_part
+    from holomorph.quality.appearance import overlapping_part
     from holomorph.quality.quality import Quality
 
     uv = np.empty(2 * len(obj.data.loops), np.float32)

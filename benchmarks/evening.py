@@ -30,7 +30,7 @@ PACKAGE = ROOT / "build" / "lib" / f"cp{sys.version_info.major}{sys.version_info
 sys.path.insert(0, str(PACKAGE))
 
 import holomorph  # noqa: E402
-from holomorph.mesh.cut_open import cut_open  # noqa: E402
+from holomorph.mesh.surgery import cut_open  # noqa: E402
 from holomorph.quality.quality import Quality  # noqa: E402
 
 DEFAULT = ("kitten_19k.obj", "fertility_ngon_g4.obj", "armadillo_29k.obj", "spot_quads.obj")

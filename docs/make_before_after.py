@@ -123,7 +123,7 @@ def slim(obj, points, polygons, stretch):
     own, seams = (
         np.sort(e, axis=1).astype(np.int64) @ [len(points), 1] for e in (surface._native.edges, ends.reshape(-1, 2))
     )
-    cut = importlib.import_module("holomorph.mesh.cut_open").cut_open(surface, np.isin(own, seams[is_seam]))
+    cut = importlib.import_module("holomorph.mesh.surgery").cut_open(surface, np.isin(own, seams[is_seam]))
     none = np.zeros(0, np.int32), np.zeros((0, 2), order="F")
     mesh = np.asfortranarray(cut.vertices), np.asfortranarray(cut.triangles, np.int32)
     start = np.empty((len(cut.vertices), 2), order="F")

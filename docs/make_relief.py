@@ -58,7 +58,7 @@ def projected(obj, values, side, depth):
     polygons = mesh_io.read(obj)
     vertices, triangles = _fine(polygons.surface(strict=False))
     surface = library.Surface(vertices, triangles)
-    normals = library.tiles.relief_normals.normals(surface)[0]
+    normals = library.tiles.relief.normals(surface)[0]
     weights = np.abs(normals) ** SHARPNESS
     weights /= weights.sum(axis=1, keepdims=True)
     height = sum(weights[:, k] * _sampled(values, vertices[:, [k - 2, k - 1]] / side) for k in range(3))

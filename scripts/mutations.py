@@ -175,17 +175,17 @@ MUTATIONS = (
         ("similar-strict", "(size(a) + size(b))", "0", SIMILAR),
     )
     | of(
-        PACKAGE + "moduli/igusa.py",
+        PACKAGE + "moduli/symplectic.py",
         ("theta-terms", "SMALLEST_TERM = 40.0", "SMALLEST_TERM = 10.0", THETA),
     )
     # Period matrices that are given.
     | of(
-        PACKAGE + "forms/period_matrix.py",
+        PACKAGE + "forms/certificate.py",
         ("periods-distance", "-np.log1p(-norm)", "norm", KNOWN),
         ("periods-error-lost", "result.error = float(error)", "result.error = 0.0", KNOWN),
     )
     | of(
-        PACKAGE + "moduli/known_periods.py",
+        PACKAGE + "moduli/equivalence.py",
         ("periods-asymmetry", "change = np.abs(np.asarray(period_matrix) - omega) + ", "change = ", KNOWN),
         ("periods-error-ignored", 'getattr(period_matrix, "error", 0.0) + ', "", SURFACES),
     )
@@ -209,7 +209,7 @@ MUTATIONS = (
     | of(
         PACKAGE + "quality/verdicts.py",
         ("unseen", "UNSEEN = 0.3", "UNSEEN = 0.6", EVENED),
-        ("by-area", 'weights @ lists["cost"]', 'np.mean(lists["cost"])', VERDICT),
+        ("by-area", "weights @ lists[name]", "np.mean(lists[name])", VERDICT),
         ("told-overlaps", "cost(quality, seen) - of_overlaps(quality)", "cost(quality, seen)", VERDICT),
         ("little-tiled", "TILED = 0.1 ", "TILED = 0.05 ", VERDICT),
         ("whole-cost", "cost(quality) + seen.cost", "cost(quality)", VERDICT),
@@ -221,7 +221,7 @@ MUTATIONS = (
         ("curved-facets", "kLevel = 0.97", "kLevel = 0.0", LOOKS),
     )
     | of(
-        PACKAGE + "mesh/folds.py",
+        PACKAGE + "mesh/hard_edges.py",
         ("blades", "np.isin(sharp, ", "~np.isin(sharp, ", VERDICT),
     )
     | of(
@@ -275,7 +275,7 @@ MUTATIONS = (
         ("direction-steep", "kSteep = 0.35", "kSteep = 0.2", DIRECTION),
         ("direction-turns", "period = 360.0 / turns", "period = 180.0 / turns", DIRECTION),
     )
-    | of(PACKAGE + "quality/direction.py", ("direction-slanted", "SLANTED = 25.0", "SLANTED = 20.0", DIRECTION))
+    | of(PACKAGE + "quality/quality.py", ("direction-slanted", "SLANTED = 25.0", "SLANTED = 20.0", DIRECTION))
     | of(ROOM + "tiling/cones/turned_space.cpp", ("lines-parts", "% 2 == 0 ? 1 : 0;", "% 2 == 0 ? 0 : 1;", LINES))
     | of(
         ROOM + "uv/turned_functions.cpp",

@@ -112,7 +112,7 @@ def _edges(face_offsets, uv):
 
 def _overlaps(border):
     quality = holomorph.quality
-    return len(border) > 0 and quality.overlap.overlapping_part(border) > quality.appearance.ROUNDING
+    return len(border) > 0 and quality.appearance.overlapping_part(border) > quality.appearance.ROUNDING
 
 
 def _middles(polygons):

@@ -197,7 +197,7 @@ def _symmetries(pixels):
 
 @functools.lru_cache(maxsize=16)
 def _most_like_of(key, turns):
-    return native.module("tiling.image_turns").most_like(key.values, turns)
+    return native.module("tiling.images").most_like(key.values, turns)
 
 
 def _most_like(pixels, turns):

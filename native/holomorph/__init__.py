@@ -18,7 +18,7 @@ Contents. help(holomorph.Surface) tells more, and so for each name.
 Meshes: Surface; Repairs, Cut, Refused; punch_holes, double_cover, symmetrised, cut_along; ProgressiveMesh,
 LevelOfDetail.
 The map for a mesh: automatic_map, automatic_maps, Map; form_map, island_map; arrangement, layout,
-Frame, frame, place; report.
+Frame, frame; report.
 Its quality: Verdict, verdict, Seen, UNEVEN, Quality, distortion; CoarsePlace, coarse_places.
 Structures: conformal_structure, automatic_structure, AnyStructure, SOLVERS; ConformalStructure, BoundedStructure,
 PoleStructure, log_map, Zeros, FundamentalDomain, PeriodMatrix; Certificate, Refinement; MemoryPlan, SolverReport,
@@ -33,143 +33,55 @@ Errors: Error, and its kinds InvalidMesh, TopologyError, SolverError, OutOfMemor
 """
 
 from types import ModuleType  # noqa: I001 -- `starting` comes before what loads NumPy
-from typing import TYPE_CHECKING
 
 from .core import starting  # noqa: F401
-from .maps import arrangement, report
-from .quality import distortion
-from .packing import layout
-from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
-from .maps.automatic_map import automatic_map, automatic_maps, form_map, island_map
-from .maps.automatic_structure import AnyStructure, automatic_structure
-from .forms.bounded import BoundedStructure
-from .tiles.cells import Cells
-from .forms.certificate import Certificate
-from .mesh.checks import SOLVERS
-from .forms.closed import ConformalStructure
-from .quality.coarse_places import CoarsePlace, coarse_places
-from .maps.conformal_image import conformal_image
-from .moduli.conformal_map import ConformalMap, conformal_map
-from .plane.cut import cut_along
-from .plane.disk import disk_map, free_boundary_map, rectangle_map
-from .mesh.double import double_cover, symmetrised
-from .moduli.equivalence import Equivalence, conformally_equivalent
-from .forms.fundamental_domain import FundamentalDomain
-from .tiles.height_image import height_image
-from .mesh.holes import punch_holes
-from .moduli.igusa import igusa_invariants
-from .tiling.image_lattice import ImageLattice, image_lattice
-from .tiling.image_turns import ImageTurns, image_turns
-from .levels.levels import LevelOfDetail
-from .forms.log_map import log_map
-from .maps.map import Map
-from .forms.narrow_bounds import Refinement
-from .packing.layout import Frame, frame, place
-from .tiles.places import Lines, Places
-from .plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap
-from .forms.pole_structure import PoleStructure
-from .levels.progressive import ProgressiveMesh
-from .quality.quality import Quality
-from .tiles.relief import Relief
-from .mesh.repairs import Cut, Refused, Repairs
-from .forms.period_matrix import PeriodMatrix
-from .moduli.siegel import SiegelReduction, siegel_reduction
-from .forms.solver_report import MemoryPlan, Residuals, SolverReport
-from .forms.structure import conformal_structure
-from .mesh.surface import Surface
-from .moduli.symmetries import Automorphisms, automorphisms
-from .tiles.tiled_surface import TiledSurface
-from .tiling.tiling import Tiler, place_poles
-from .tiling.tilings import PlacedPoles, Rounding, Tiling
-from .quality.verdicts import UNEVEN, Seen, Verdict, verdict
-from .forms.form_structure import Zeros
 
-if TYPE_CHECKING:  # at run time, help() would print all that it names in full, and what says that it is of this module
-    __all__ = [
-        "AnyStructure",
-        "Automorphisms",
-        "BoundedStructure",
-        "Cancelled",
-        "Cells",
-        "Certificate",
-        "CoarsePlace",
-        "ConformalMap",
-        "ConformalStructure",
-        "Cut",
-        "DiskMap",
-        "Equivalence",
-        "Error",
-        "Frame",
-        "FreeBoundaryMap",
-        "FundamentalDomain",
-        "ImageLattice",
-        "ImageTurns",
-        "InvalidMesh",
-        "LevelOfDetail",
-        "Lines",
-        "Map",
-        "MemoryPlan",
-        "OutOfMemory",
-        "ProgressiveMesh",
-        "PeriodMatrix",
-        "PlacedPoles",
-        "Places",
-        "PoleStructure",
-        "Quality",
-        "RectangleMap",
-        "Refinement",
-        "Refused",
-        "Relief",
-        "Repairs",
-        "Residuals",
-        "Rounding",
-        "SOLVERS",
-        "Seen",
-        "SiegelReduction",
-        "SolverError",
-        "SolverReport",
-        "Surface",
-        "TiledSurface",
-        "Tiler",
-        "Tiling",
-        "TopologyError",
-        "UNEVEN",
-        "Verdict",
-        "Zeros",
-        "__version__",
-        "arrangement",
-        "automatic_map",
-        "automatic_maps",
-        "automatic_structure",
-        "automorphisms",
-        "coarse_places",
-        "conformal_image",
-        "conformal_map",
-        "conformal_structure",
-        "conformally_equivalent",
-        "cut_along",
-        "disk_map",
-        "distortion",
-        "double_cover",
-        "form_map",
-        "frame",
-        "free_boundary_map",
-        "height_image",
-        "igusa_invariants",
-        "image_lattice",
-        "image_turns",
-        "island_map",
-        "layout",
-        "log_map",
-        "place",
-        "place_poles",
-        "punch_holes",
-        "rectangle_map",
-        "report",
-        "siegel_reduction",
-        "symmetrised",
-        "verdict",
-    ]
+# What is imported as itself is public, for type checkers as well.
+from .maps import arrangement as arrangement, report as report
+from .quality import distortion as distortion
+from .packing import layout as layout
+from ._native import Cancelled as Cancelled, Error as Error, InvalidMesh as InvalidMesh, OutOfMemory as OutOfMemory
+from ._native import SolverError as SolverError, TopologyError as TopologyError, __version__ as __version__
+from .maps.automatic_map import automatic_map as automatic_map, automatic_maps as automatic_maps
+from .maps.automatic_map import form_map as form_map, island_map as island_map
+from .maps.automatic_structure import AnyStructure as AnyStructure, automatic_structure as automatic_structure
+from .forms.structure import BoundedStructure as BoundedStructure, ConformalStructure as ConformalStructure
+from .forms.structure import conformal_structure as conformal_structure
+from .tiles.places import Cells as Cells, Lines as Lines, Places as Places
+from .forms.certificate import Certificate as Certificate, PeriodMatrix as PeriodMatrix
+from .mesh.checks import SOLVERS as SOLVERS
+from .quality.distortion import CoarsePlace as CoarsePlace, coarse_places as coarse_places
+from .maps.conformal_image import conformal_image as conformal_image
+from .moduli.conformal_map import ConformalMap as ConformalMap, conformal_map as conformal_map
+from .plane.cut import cut_along as cut_along
+from .plane.disk import DiskMap as DiskMap, FreeBoundaryMap as FreeBoundaryMap, RectangleMap as RectangleMap
+from .plane.disk import disk_map as disk_map, free_boundary_map as free_boundary_map, rectangle_map as rectangle_map
+from .mesh.surgery import double_cover as double_cover, symmetrised as symmetrised
+from .moduli.equivalence import Equivalence as Equivalence, conformally_equivalent as conformally_equivalent
+from .forms.form_structure import FundamentalDomain as FundamentalDomain, Zeros as Zeros
+from .tiles.height_image import height_image as height_image
+from .mesh.surgery import punch_holes as punch_holes
+from .moduli.symplectic import Automorphisms as Automorphisms, automorphisms as automorphisms
+from .moduli.symplectic import igusa_invariants as igusa_invariants, siegel_reduction as siegel_reduction
+from .moduli.symplectic import SiegelReduction as SiegelReduction
+from .tiling.images import ImageLattice as ImageLattice, ImageTurns as ImageTurns, image_lattice as image_lattice
+from .tiling.images import image_turns as image_turns
+from .levels.levels import LevelOfDetail as LevelOfDetail
+from .forms.log_map import PoleStructure as PoleStructure, log_map as log_map
+from .maps.map import Map as Map
+from .forms.narrow_bounds import Refinement as Refinement
+from .packing.layout import Frame as Frame, frame as frame
+from .levels.progressive import ProgressiveMesh as ProgressiveMesh
+from .quality.quality import Quality as Quality
+from .tiles.relief import Relief as Relief
+from .mesh.origin import Cut as Cut, Refused as Refused, Repairs as Repairs
+from .forms.results import MemoryPlan as MemoryPlan, Residuals as Residuals, SolverReport as SolverReport
+from .mesh.surface import Surface as Surface
+from .tiles.tiled_surface import TiledSurface as TiledSurface
+from .tiling.tiling import PlacedPoles as PlacedPoles, Rounding as Rounding, Tiler as Tiler, Tiling as Tiling
+from .tiling.tiling import place_poles as place_poles
+from .quality.verdicts import Seen as Seen, UNEVEN as UNEVEN, Verdict as Verdict, verdict as verdict
+
 for _error in (Error, InvalidMesh, TopologyError, SolverError, OutOfMemory, Cancelled):
     _error.__module__ = "holomorph._native"
 
@@ -178,4 +90,4 @@ def __dir__() -> list[str]:
     """What completion shows: the public names, and not the rooms that they are from."""
     public = arrangement, distortion, layout, report
     names = {name for name, value in globals().items() if not isinstance(value, ModuleType) or value in public}
-    return sorted(name for name in names - {"ModuleType", "TYPE_CHECKING"} if name[0] != "_") + ["__version__"]
+    return sorted(name for name in names - {"ModuleType"} if name[0] != "_") + ["__version__"]

@@ -71,17 +71,13 @@ def _parser():
     text = "write the report as JSON; - prints it, as without --output and --report"
     parser.add_argument("--report", metavar="FILE", help=text)
     parser.add_argument("--quiet", action="store_true", help="do not print the verdict, which is one line")
-    text = (
-        "automatic (default with --output, or where what follows asks for tiles): the best looking map; else balanced"
-    )
+    text = "automatic (default with --output, or where tiles are asked for): the best looking map; else balanced"
     parser.add_argument("--main", choices=MAIN_MAPS, help=text)
     parser.add_argument("--tiles", **_of_recipe("tiles"), help="number over the whole mesh (default: 0, chosen)")
     text = f"from 0, which keeps angles, to 1, which makes all squares of one size (default: {EVENNESS})"
     parser.add_argument("--evenness", **_of_recipe("evenness"), help=text)
-    text = (
-        "2, 4 or 6: sides of a cut may turn by a half, a quarter or a sixth, where the texture looks the same; auto: "
-    )
-    text += "as the image of --texture does, 1 without one"
+    text = "2, 4 or 6: sides of a cut may turn by a half, a quarter or a sixth, where the texture looks the same; "
+    text += "auto: as the image of --texture does, 1 without one"
     parser.add_argument("--turns", type=_turns, choices=(*TURNS, AUTO), default=1, help=text)
     text = "with --turns 2 or 4: let rows run along hard edges and smooth boundaries (free), or end there (whole)"
     parser.add_argument("--lines", choices=(AUTOMATIC, *LINES), default=AUTOMATIC, help=text)

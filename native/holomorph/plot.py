@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._native import InvalidMesh
-from .core import arrays
 from .core.array_types import Reals
 from .core.value import quoted
 from .forms.form_structure import FormStructure
+from .mesh.checks import checked_uv
 from .mesh.surface import Surface
 
 try:
@@ -156,10 +156,7 @@ def _seen_through(structure, up):
 def _checked_uv(surface: Surface, uv: ArrayLike) -> Reals:
     """The UVs as reals. @throws ValueError if they are not those of the surface, @throws InvalidMesh"""
     _require_positions(surface)
-    uv = arrays.numbers(uv, "uv")
-    if uv.shape != (len(surface.corner_vertices), 2) or not np.isfinite(uv).all():
-        raise ValueError(f"uv has the shape {uv.shape}; ({len(surface.corner_vertices)}, 2) finite numbers are needed")
-    return uv
+    return checked_uv(uv, surface, is_finite=True)
 
 
 def _require_positions(surface: Surface) -> None:

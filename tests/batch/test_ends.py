@@ -119,9 +119,9 @@ def test_a_source_that_is_gone_when_its_turn_comes(recipe, tmp_path):
     for name in ("a", "b"):
         torus_obj(source / f"{name}.obj")
     program = (
-        "import os, sys; from holomorph.batch import command, plan\n"
-        "tasks = plan.Plan.tasks\n"
-        f"plan.Plan.tasks = lambda plan: os.path.exists({str(source / 'b.obj')!r}) and "
+        "import os, sys; from holomorph.batch import command\n"
+        "tasks = command.Plan.tasks\n"
+        f"command.Plan.tasks = lambda plan: os.path.exists({str(source / 'b.obj')!r}) and "
         f"os.unlink({str(source / 'b.obj')!r}) or tasks(plan)\n"
         "sys.exit(command.main(sys.argv[1:]))"
     )

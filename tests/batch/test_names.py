@@ -10,8 +10,8 @@ import pytest
 from any_names import any_entries, any_names
 from batch_runs import command, outputs, run, statuses, torus_obj
 from holomorph.batch import sources
+from holomorph.batch.command import LONGEST, Plan, of_source
 from holomorph.batch.journal import Journal
-from holomorph.batch.plan import LONGEST, Plan, of_source
 from holomorph.batch.recipe import Recipe
 from holomorph.commands.console import shown
 from holomorph.files.names import LONGEST_PART, told_apart

@@ -58,9 +58,7 @@ def ring_with_seams():
 def test_a_file_of_another_program_is_read_and_its_map_is_written(suffix, program, tmp_path):
     """The seams of a map are not boundaries. The .blend file is the scene that the file holds."""
     library = native.load()
-    blend, recipe, task = (
-        importlib.import_module(f"{library.__name__}.batch.{n}") for n in ("blend", "recipe", "task")
-    )
+    recipe, task = (importlib.import_module(f"{library.__name__}.batch.{n}") for n in ("recipe", "task"))
     ring_with_seams()
     path, folder = tmp_path / f"scene{suffix}", tmp_path / "opened"
     write(path)
@@ -69,7 +67,7 @@ def test_a_file_of_another_program_is_read_and_its_map_is_written(suffix, progra
     assert record["status"] == "done", record["message"]
     for name, content in files.items():
         (folder / name).write_bytes(content)
-    ((name, arrays, corners),) = blend.objects(folder)
+    ((name, arrays, corners),) = task.objects(folder)
     options = recipe.of({"maps": {"main": "balanced"}, "output": {"formats": ["npz", "blend"]}})
     record, files = task.Task(
         name, "key", arrays, corners, tmp_path, tmp_path, options, (str(path), name), program

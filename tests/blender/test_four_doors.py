@@ -18,9 +18,8 @@ from scenes import mesh_io, native, uv_maps
 
 gathering, compatibility = module("scene.gathering"), module("compatibility")
 holomorph = native.load()
-command, blend, recipe, task = (
-    importlib.import_module(f"{holomorph.__name__}.{name}")
-    for name in ("__main__", "batch.blend", "batch.recipe", "batch.task")
+command, recipe, task = (
+    importlib.import_module(f"{holomorph.__name__}.{name}") for name in ("__main__", "batch.recipe", "batch.task")
 )
 FILES = door_files.own_files() | door_files.shared_files()
 READ = (".obj", ".off", ".ply", ".stl")  # by the package at every door
@@ -110,7 +109,7 @@ def by_batch(path, folder, turns):
         assert record["status"] == "done", record["message"]
         for name, content in files.items():
             (folder / name).write_bytes(content)
-        tasks = [(arrays, (str(path), name)) for name, arrays, _ in blend.objects(folder)]
+        tasks = [(arrays, (str(path), name)) for name, arrays, _ in task.objects(folder)]
     wanted = recipe.of({"output": {"formats": ["npz"]}, "tiling": {"turns": turns}})
     entries, joined, sizes = [], 0, []
     for source, scene in tasks:

@@ -41,7 +41,7 @@ def cut_parts(obj):
     mesh, surface = native.holomorph.mesh, whole_surface(obj)
     seams, count = mesh_io.marked_edges(obj.data, "use_seam"), len(surface.vertices)
     keys, cut = (mesh.edges.edge_keys(ends, count) for ends in (surface._native.edges, seams))
-    return mesh.cut_open.cut_open(surface, np.isin(keys, cut)).components
+    return mesh.surgery.cut_open(surface, np.isin(keys, cut)).components
 
 
 def similarities(obj):

@@ -37,7 +37,7 @@ def test_what_the_panel_shows_has_words_in_each():
     verdicts, report = native.load().quality.verdicts, native.load().maps.report
     seen = [verdicts.EVENNESS[0], verdicts.EVENNESS[1], *verdicts.SHEAR[1:], *verdicts.LINED.values()]
     seen += [f"{{}} {word}" for word in report.WORDS.values()]
-    seen += [f"{part} is slanted" for part in native.load().quality.direction.FRACTIONS]
+    seen += [f"{part} is slanted" for part in native.load().quality.quality.FRACTIONS]
     for table in words.LANGUAGES.values():
         assert not {*LABELS, *seen} - set(table)
 

@@ -5,7 +5,7 @@ import pytest
 from loaded_addon import module
 from scenes import fills_the_square, run, select, torus, torus_arrays, two_parts, uv
 
-layout = module("native").load().layout
+packed = module("native").load()._native.pack
 
 
 def boxes(kind, count):
@@ -24,7 +24,7 @@ def boxes(kind, count):
 @pytest.mark.parametrize("kind", ["equal", "wide", "mixed", "points"])
 def test_rectangles_lie_in_the_square_and_apart(kind, count, margin):
     sizes = boxes(kind, count)
-    corners, side = layout.pack(sizes, margin)
+    corners, side = packed(sizes, margin)
     rounding = 1e-12 * max(side, 1)
     assert corners.min() >= -rounding and (corners + sizes).max() <= side + rounding
     if kind == "points":
@@ -41,15 +41,15 @@ def test_rectangles_lie_in_the_square_and_apart(kind, count, margin):
 @pytest.mark.parametrize("kind", ["equal", "mixed"])
 def test_the_square_is_used(kind):
     sizes = boxes(kind, 60)
-    _, side = layout.pack(sizes, 0.0)
+    _, side = packed(sizes, 0.0)
     assert np.prod(sizes, axis=1).sum() > 0.7 * side**2
 
 
 def test_the_layout_is_the_same_twice_and_of_any_size():
     sizes = boxes("mixed", 40)
-    corners, side = layout.pack(sizes, 0.02)
-    assert np.array_equal(layout.pack(sizes.copy(), 0.02)[0], corners)
-    large, large_side = layout.pack(4096 * sizes, 0.02)  # a power of two: the same bits
+    corners, side = packed(sizes, 0.02)
+    assert np.array_equal(packed(sizes.copy(), 0.02)[0], corners)
+    large, large_side = packed(4096 * sizes, 0.02)  # a power of two: the same bits
     assert large_side == 4096 * side and np.array_equal(large, 4096 * corners)
 
 

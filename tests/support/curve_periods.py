@@ -6,7 +6,7 @@ b_i = C_2i + C_(2i+2) + ... + C_2g are canonical. What is made is checked: it is
 """
 
 import numpy as np
-from holomorph.forms.period_matrix import PeriodMatrix
+from holomorph.forms.certificate import PeriodMatrix
 
 NODES = 4000  # of Chebyshev's rule, for points that are hundreds of times nearer than the edges are long
 ERROR = 1e-11  # what rounding leaves of the curves in these tests

@@ -4,8 +4,7 @@ Thomae's formula, which gives theta constants without periods."""
 from itertools import combinations
 
 import numpy as np
-from holomorph.moduli.igusa import even_theta_constants
-from holomorph.moduli.siegel import siegel_reduction
+from holomorph.moduli.symplectic import even_theta_constants, siegel_reduction
 
 
 def circle(count, radius=1.0, turn=0.0):

@@ -2,8 +2,8 @@
 
 import numpy as np
 from holomorph import free_boundary_map
-from holomorph.mesh.cut_open import cut_open
 from holomorph.mesh.edges import edge_keys
+from holomorph.mesh.surgery import cut_open
 
 ISOMETRIC = 1e-10  # relative
 

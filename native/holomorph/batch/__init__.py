@@ -1,7 +1,7 @@
 """A library of meshes mapped by one command: `holomorph batch SOURCE... --out DIR`. See docs/batch.md.
 
 sources : what there is to map      recipe : what is wanted of each asset      task : an asset, or a scene of assets
-mapping, picture, blend : its maps, its picture, its objects in Blender     journal : results, whole or not at all
+mapping, picture : its maps, its picture     journal : results, whole or not at all
 worker : a process that may fail, and what watches it     machine, cluster : many of them, here and on Dask
 overview : index.html and the summaries                   command : the command line
 """

@@ -21,11 +21,8 @@ CONNECT_SECONDS = 10.0
 CLOSE_SECONDS = 1.0
 RECONNECT_SECONDS = 600.0  # a scheduler that is gone may take so long to come back
 LOOK_SECONDS = 2.0  # how often it is looked whether the scheduler is there
-GONE = (
-    OSError,
-    distributed.client.FutureCancelledError,
-    distributed.comm.CommClosedError,
-)  # TimeoutError is an OSError
+# TimeoutError is an OSError.
+GONE = OSError, distributed.client.FutureCancelledError, distributed.comm.CommClosedError
 
 _own = threading.local()
 _started = []  # the workers of all threads of this process

@@ -1,7 +1,11 @@
-"""holomorph batch SOURCE... --out DIR: the command line, and the run from its options to its end."""
+"""holomorph batch SOURCE... --out DIR: the command line, the run from its options to its end, and its plan: what there
+is to do in an output folder, and where the results of each asset are there.
+"""
 
 import contextlib
+import hashlib
 import importlib.util
+import json
 import os
 import re
 import sys
@@ -10,18 +14,100 @@ from collections import Counter
 from functools import partial
 from pathlib import Path
 
+from .. import __version__
 from ..commands.console import Parser, failed, say, shown, tell
 from ..core.value import counted
+from ..files.names import marked, part, told_apart
 from ..quality.verdicts import LEVELS
-from . import DONE, EngineError, StorageError, UsageError, blend, overview, recipe, sources, workers
-from .journal import Journal, stored, storing
-from .plan import Plan
-from .task import Limits
+from . import DONE, EngineError, StorageError, UsageError, overview, recipe, sources, workers
+from .journal import RECORD, Journal, noted, stored, storing
+from .task import OBJECTS, Limits, Task, blender_program, objects
 
+LONGEST = 1000  # of the whole path below the output folder; systems take 4096
+ASSETS, SCENES = "assets", ".blend"  # folders of the results: of assets, and of what Blender read of scenes
 ALL_DONE, SOME_FAILED, USAGE, STRICT, STORAGE, ENGINE, MACHINE = range(7)  # exit codes; see docs/batch/results.md
 UNITS = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
 EVERY = 10.0  # seconds between lines about how far a batch is
 UNFIT = LEVELS[LEVELS.index("fair") + 1 :]
+
+
+def of_folder(name):
+    """A folder of assets as one part of a path. Where it has a suffix of a source, an asset may have its name, too:
+    its dot is told apart."""
+    plain = part(name)
+    stem, dot, suffix = plain.rpartition(".")
+    return f"{stem}%2E{suffix}" if dot and f".{suffix.lower()}" in sources.WANTED else plain
+
+
+def of_source(name):
+    """The path of a source, whose parts between slashes are folders."""
+    *folders, last = name.split("/")
+    path = "/".join([*(of_folder(folder) for folder in folders), part(last)])
+    return path if len(path) <= LONGEST else marked(part(last), name)
+
+
+class Plan:
+    """The tasks of a batch. `openings` come first: they read scenes, whose objects are then assets, too.
+
+    found : all sources, which tell each other's folders apart; share : those of this run
+    """
+
+    def __init__(self, found, journal, recipe, limits, blender, share=slice(None)):
+        self._journal, self._recipe, self._more = journal, recipe, {"blender": blender, "limits": limits}
+        self._places = told_apart([source.name for source in found], of_source)
+        tasks = [self._of_source(source) for source in found[share]]
+        self.openings = [task for task in tasks if task.recipe is None]
+        self._meshes = [task for task in tasks if task.recipe]
+
+    def tasks(self):
+        """The tasks of the mesh files, and of the objects of the scenes that were read."""
+        opened = [opening for opening in self.openings if _is_read(opening)]
+        return self._meshes + [task for opening in opened for task in self._objects(opening)]
+
+    def unopened(self):
+        """The scenes that were not read: each is an asset in itself, which is not done."""
+        return [opening for opening in self.openings if not _is_read(opening)]
+
+    def _of_source(self, source):
+        problem, digest = _examined(source)
+        is_scene = sources.is_scene(source.path)
+        folder, recipe = (SCENES, None) if is_scene else (ASSETS, self._recipe)
+        place = f"{folder}/{self._places[source.name]}"
+        return self._task(source.name, digest, source.path, source.size, place, recipe, problem=problem)
+
+    def _objects(self, opening):
+        found = objects(opening.folder)
+        folders = told_apart([name for name, *_ in found], part)
+        for name, path, corners in found:
+            shown = name.replace("%", "%25").replace("/", "%2F")
+            place = f"{ASSETS}/{self._places[opening.name]}/{folders[name]}"
+            scene = str(opening.path), name
+            yield self._task(f"{opening.name}/{shown}", opening.key, path, corners, place, self._recipe, scene=scene)
+
+    def _task(self, name, digest, path, size, place, recipe, **more):
+        """digest : a hash of the bytes of the source"""
+        parts = digest, name, recipe and recipe.canonical, __version__
+        key = hashlib.sha256(json.dumps(parts).encode()).hexdigest()
+        folders = self._journal.folder / place, self._journal.work
+        return Task(name, key, path.absolute(), size, *folders, recipe, **self._more, **more)
+
+
+def _is_read(opening):
+    """Whether its objects are there, as they were listed: a record of another shape is that of another program."""
+    is_own = noted(opening) is not None or not (opening.folder / RECORD).exists()
+    return is_own and (opening.folder / OBJECTS).exists()
+
+
+def _examined(source):
+    """(why it cannot be read, or empty; a hash of its bytes, or of that)."""
+    problem = source.problem
+    if not problem:
+        try:
+            with open(source.path, "rb") as file:
+                return "", hashlib.file_digest(file, "sha256").hexdigest()
+        except OSError as error:
+            problem = sources.cannot_be_read("file", error)
+    return problem, hashlib.sha256(problem.encode()).hexdigest()
 
 
 def main(arguments):
@@ -35,9 +121,8 @@ def main(arguments):
     except EngineError as error:
         return failed(ENGINE, f"{error}; the same command continues")
     except (OSError, MemoryError, ImportError) as error:  # the last of a library that finds no memory
-        return failed(
-            MACHINE, f"this machine does not provide what the run needs: {_reason(error)}; the same command continues"
-        )
+        told = f"this machine does not provide what the run needs: {_reason(error)}; the same command continues"
+        return failed(MACHINE, told)
 
 
 def _reason(error):
@@ -74,7 +159,7 @@ def _run(options):
     found = sources.find(options.source, options.out)
     wanted = recipe.read(options.recipe) if options.recipe else recipe.Recipe()
     needs_blender = "blend" in wanted.output.formats or any(sources.is_scene(s.path) for s in found)
-    program = blend.program(options.blender) if needs_blender else ""
+    program = blender_program(options.blender) if needs_blender else ""
     number, count = options.share or (1, 1)
     journal = Journal(os.path.realpath(options.out), "{}-of-{}".format(*options.share) if options.share else "")
     execute, limits = _engine(options)
@@ -100,9 +185,8 @@ def _exit_code(records, options):
     unfit = [record["name"] for record in records if record.get("verdict") in UNFIT or record.get("skipped")]
     if not (options.strict and unfit):
         return ALL_DONE
-    return failed(
-        STRICT, f"poor or unusable map, or parts without a map: {counted(len(unfit), 'asset')}; the first is {unfit[0]}"
-    )
+    count = counted(len(unfit), "asset")
+    return failed(STRICT, f"poor or unusable map, or parts without a map: {count}; the first is {unfit[0]}")
 
 
 def _engine(options):

@@ -15,7 +15,7 @@ from ..maps.map import Map
 from ..maps.report import parts_report
 from ..mesh.origin import on_part
 from ..tiles.height_image import height_image
-from ..tiling.image_turns import image_turns
+from ..tiling.images import image_turns
 from ..tiling.request import AUTO, AUTOMATIC, LINED_TURNS
 
 

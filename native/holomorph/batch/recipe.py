@@ -15,7 +15,7 @@ import tomllib
 from ..core.value import quoted, shortened
 from ..files import formats, textures, whole_file
 from ..mesh.checks import SOLVERS, as_float
-from ..tiling import tilings
+from ..tiling import request
 from ..tiling.request import AUTO, AUTOMATIC, EVENNESS, LINED_TURNS, LINES, MAIN_MAPS, TURNS
 from . import UsageError, mapping
 
@@ -94,16 +94,16 @@ class Tiles:
     density: float | None = _number(None, "a positive number of tiles per unit of area", lambda value: value > 0)
     poles: object = _option(
         "auto",
-        f'"auto", a number up to {tilings.MOST_POLES} or a list of vertices',
-        lambda v: v == "auto" or (_is_count(v) and v <= tilings.MOST_POLES) or _is_list(v, _is_count),
+        f'"auto", a number up to {request.MOST_POLES} or a list of vertices',
+        lambda v: v == "auto" or (_is_count(v) and v <= request.MOST_POLES) or _is_list(v, _is_count),
     )
-    lattice: str = _one_of(tuple(tilings.LATTICES), "square")
+    lattice: str = _one_of(tuple(request.LATTICES), "square")
     direction: str | tuple = _option(
         "upright",
         '"upright", "none" or a list of three numbers that are not all 0',
         lambda v: v in ("upright", "none") or (_is_list(v, _is_number) and len(v) == 3 and any(v)),
     )
-    boundary: str = _one_of(tilings.BOUNDARIES, "automatic")
+    boundary: str = _one_of(request.BOUNDARIES, "automatic")
     turn: float | None = _number(None, "an angle in radians", lambda value: True)
     max_turn: float = _number(0.2, "an angle of at least 0 radians", lambda value: value >= 0)
     evenness: float = _number(EVENNESS, "a number from 0 to 1", lambda value: 0 <= value <= 1)
@@ -127,9 +127,8 @@ class Output:
     formats: tuple = _option(
         ("npz",), f"a list of {', '.join(FORMATS)}", lambda value: _is_list(value, FORMATS.__contains__)
     )
-    texture: str | None = _option(
-        None, '"checker" or a PNG or JPEG file', lambda value: isinstance(value, str)
-    )  # of glb
+    # It is on the meshes of glb files.
+    texture: str | None = _option(None, '"checker" or a PNG or JPEG file', lambda value: isinstance(value, str))
     up: str | None = _option(None, '"Y" or "Z"', lambda value: value in ("Y", "Z"))  # of mesh files; OBJ Y, others Z
 
 

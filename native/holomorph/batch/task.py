@@ -1,19 +1,28 @@
-"""The work on one source, in one process: from the file of a mesh to the files of its maps, from a scene to meshes."""
+"""The work on one source, in one process: from the file of a mesh to the files of its maps, from a scene to meshes.
+Blender reads the objects of scenes into arrays, and writes maps back, in a process of its own.
+"""
 
 import json
+import shutil
+import subprocess
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
 from .. import ProgressiveMesh, Surface, __version__
 from .._native import Error, InvalidMesh
-from ..files import formats, textures
+from ..files import formats, scenes, textures, whole_file
 from ..maps.conformal_image import conformal_image
 from ..maps.report import part_count
-from . import DONE, REFUSED, blend, mapping, picture
+from . import DONE, REFUSED, UsageError, mapping, picture
 from .recipe import Recipe
+
+ARRAYS = ".npz"  # vertices, corner_vertices, face_offsets, and seams, the (#S, 2) vertices of the marked edges
+OBJECTS = "objects.json"  # [[name, file, number of corners], ...]
+SCRIPT = Path(__file__).with_name("in_blender.py")
 
 
 @dataclass(frozen=True)
@@ -29,7 +38,7 @@ class Limits:
 class Task:
     """An asset to be mapped, or a scene whose objects are to be read.
 
-    path : a mesh file, or the arrays of an object (.npz, see `blend`), or a scene; recipe : None of a scene alone;
+    path : a mesh file, or the arrays of an object (.npz, see `ARRAYS`), or a scene; recipe : None of a scene alone;
     scene : of an object, the scene's file and the object's name; problem : why the file cannot be read, or empty
     key : of the results, the same for the same source, recipe and version; folder : where they will be; work : where
     they are written first
@@ -56,7 +65,7 @@ class Task:
             if self.problem:
                 raise InvalidMesh(self.problem)
             if self.recipe is None:
-                files = blend.opened(self)
+                files = opened(self)
             else:
                 report, files, timings = _mapped(self)
                 if not any(part["done"] for part in report["components"]):
@@ -97,7 +106,7 @@ def _mapped(task):
 
 def _read(path, up):
     """The surface, and the (#S, 2) vertices of the edges that are marked as seams, None in mesh files."""
-    if path.suffix != blend.ARRAYS:
+    if path.suffix != ARRAYS:
         return Surface.read(path, up=up), None
     with np.load(path) as arrays:
         mesh = arrays["vertices"], arrays["corner_vertices"], arrays["face_offsets"]
@@ -126,7 +135,7 @@ def _files(task, surface, uv, parts):
     if "npz" in wanted or "blend" in wanted:
         files["mesh.npz"] = formats.npz(surface, _arrays(task.recipe.maps, surface, uv, parts))
     if "blend" in wanted:
-        files["mesh.blend"] = blend.written(task, files["mesh.npz"])
+        files["mesh.blend"] = blend_file(task, files["mesh.npz"])
     return files
 
 
@@ -154,3 +163,52 @@ def _shape(surface, parts):
             corners = np.searchsorted(surface.corner_index, part.surface.corner_index)
             points[surface.corner_vertices[corners]] = image[part.surface.corner_vertices]
     return points
+
+
+def opened(task):
+    """{file: bytes}: the arrays of each mesh object of a scene, and `OBJECTS`. @throws InvalidMesh"""
+    with TemporaryDirectory(dir=task.work) as folder:
+        try:
+            _run(task.blender, task.path, "read", folder)
+        except InvalidMesh as error:
+            raise InvalidMesh(scenes.fault(task.path) or str(error)) from error
+        return {path.name: path.read_bytes() for path in Path(folder).iterdir()}
+
+
+def objects(folder):
+    """[(name, file, number of corners)] of a scene whose files lie in a folder."""
+    listed = json.loads((folder / OBJECTS).read_bytes())
+    return [(name, folder / file, corners) for name, file, corners in listed]
+
+
+def blender_program(wanted):
+    """The Blender to use. @throws UsageError"""
+    found = shutil.which(wanted or "blender")
+    if found is None:
+        where = f"there is no program {wanted}" if wanted else "no Blender is on the PATH; name one with --blender"
+        raise UsageError(f"Scenes are read, and .blend files written, by Blender: {where}")
+    return found
+
+
+def blend_file(task, mesh):
+    """The bytes of a .blend file with the maps of `mesh`, an .npz file's bytes: that of the source, or a new one."""
+    with TemporaryDirectory(dir=task.work) as folder:
+        arrays, target = Path(folder, "mesh.npz"), Path(folder, "mesh.blend")
+        arrays.write_bytes(mesh)
+        scene, name = task.scene or (None, Path(task.name).stem)
+        _run(task.blender, scene, "write", arrays, target, name)
+        whole_file.require_room(target)
+        return target.read_bytes()
+
+
+def _run(blender, scene, *arguments):
+    """Runs the script in Blender. @throws InvalidMesh where it ends with an error"""
+    options = ["--background", "--factory-startup", "--disable-autoexec", "--python-exit-code", "3"]
+    file = [] if scene is None else [str(Path(scene).absolute())]
+    importers = [name for path in file for name in formats.IMPORTERS[Path(path).suffix.lower()]]
+    words = [*file, *map(str, arguments), *importers]
+    command = [blender, *options, *([] if importers else file), "--python", str(SCRIPT), "--", *words]
+    run = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
+    if run.returncode != 0:
+        said = [line for line in run.stderr.splitlines() if line.strip()] or ["nothing"]
+        raise InvalidMesh(f"Blender exited with {run.returncode}; its last message: {said[-1].strip()}")

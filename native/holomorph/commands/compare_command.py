@@ -5,6 +5,7 @@ import json
 from .. import Error, Surface
 from ..core.value import plain
 from ..files import formats, whole_file
+from ..mesh.checked_mesh import naming
 from ..moduli.equivalence import VERDICTS, conformally_equivalent
 from .console import Parser, failed, tell, warn
 
@@ -42,8 +43,6 @@ def compare(arguments):
 def _surface(path):
     surface = Surface.read(path, strict=True)
     warn(path, surface.repairs.notes)
-    try:
+    with naming(path):
         surface.require_connected()
-    except Error as error:
-        raise type(error)(f"{path}: {error}") from error
     return surface

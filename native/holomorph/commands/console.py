@@ -98,9 +98,8 @@ def ended(run, refused=1):
         _ignore_signals()
         return status
     except KeyboardInterrupt:
-        return failed(
-            INTERRUPTED, "interrupted; files already written are complete, and the same command does the rest"
-        )
+        told = "interrupted; files already written are complete, and the same command does the rest"
+        return failed(INTERRUPTED, told)
     except (OSError, MemoryError, ImportError) as error:  # the last of a library that finds no memory
         _ignore_signals()
         return failed(refused, str(error) and error or "there is not enough memory")

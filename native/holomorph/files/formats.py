@@ -41,13 +41,13 @@ def check_texture(name, texture):
     textures.check(texture)
 
 
-def of_path(path):
-    """The name in `WRITERS` of the format that a path ends with.
+def of_path(path, writers=None):
+    """The name of the format that a path ends with, in `WRITERS` or others.
 
     Raises ValueError for any other ending."""
-    name = Path(path).suffix.lower().removeprefix(".")
-    if name not in WRITERS:
-        endings = [f".{known}" for known in WRITERS]
+    name, known = Path(path).suffix.lower().removeprefix("."), writers or WRITERS
+    if name not in known:
+        endings = [f".{each}" for each in known]
         wanted = f"{', '.join(endings[:-1])} or {endings[-1]}"
         raise ValueError(f"{path} must end with {wanted}")
     return name

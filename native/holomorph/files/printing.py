@@ -2,7 +2,6 @@
 
 import io
 import zipfile
-from pathlib import Path
 
 import numpy as np
 
@@ -43,10 +42,7 @@ def content(path, mesh):
 
 def of_path(path):
     """The name in `WRITERS`. @throws ValueError"""
-    name = Path(path).suffix.lower().removeprefix(".")
-    if name not in WRITERS:
-        raise ValueError(f"{path} must end with .stl, .3mf or .obj")
-    return name
+    return formats.of_path(path, WRITERS)
 
 
 def rounding(path, mesh):

@@ -10,9 +10,9 @@ from xml.parsers.expat import ExpatError
 import numpy as np
 
 from .._native import Error, InvalidMesh
-from . import gltf_scene, model_3mf, whole_file
+from . import gltf, model_3mf, whole_file
 
-KINDS = {".glb": gltf_scene, ".gltf": gltf_scene, ".3mf": model_3mf}
+KINDS = {".glb": gltf, ".gltf": gltf, ".3mf": model_3mf}
 MOST_PIECES, MOST_TRIANGLES = 100_000, 50_000_000  # files may repeat a mesh: a small one never needs much memory
 MALFORMED = (ValueError, TypeError, KeyError, IndexError, AttributeError, OverflowError, RecursionError, RuntimeError)
 MALFORMED += (EOFError, struct.error, zipfile.BadZipFile, zlib.error, ExpatError, SyntaxError)  # of ElementTree

@@ -1,4 +1,4 @@
-"""What the results have in common that have forms to combine."""
+"""What the results have in common that have forms to combine; the fundamental domain of their surfaces (paper § 4)."""
 
 from __future__ import annotations
 
@@ -15,10 +15,37 @@ from ..core.array_types import Bounds, Complexes, Integers, Progress, Reals
 from ..core.value import Value, counted
 from ..mesh.checks import checked_coefficients
 from .certificate import Certificate, certificate
-from .fundamental_domain import FundamentalDomain, domain_and_tree
 from .narrow_bounds import Refinement
-from .results import Structure
-from .solver_report import MemoryPlan, SolverReport
+from .results import MemoryPlan, SolverReport, Structure
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FundamentalDomain(Value):
+    """The paper's disk D of all triangles, each joined to those before it across one edge (§ 4.1). The edges that were
+    not crossed, diagonals of polygons never among them, are the graph G with its dangling branches; `spanning_tree` and
+    `generator_edges` are part of it. Edges are indices into `edges` of the structure.
+
+    The paper takes triangles from a plain queue; here the order is such that loops are short (docs/method.md).
+
+    faces : (#T,) triangles in the order of D
+    joined : (#T,) edge across which each was joined to a triangle before it; -1 for the first
+    boundary : (#B, 2) vertices, from and to, of the oriented edges around D after the paper's step 3, in order, D on
+        their left: each edge of the cut graph in both directions (`seams`, unless those were chosen), each edge of the
+        surface's boundary in one
+    boundary_edges : (#B,) the same edges
+    generator_edges : (2g,) the edges e_i of G outside its spanning tree T. Closed in T each is the loop zeta_i of
+        `homology_basis`, which begins with it; of levels, and of the paper's solver, those loops come from the base
+        mesh instead
+    """
+
+    faces: Integers
+    joined: Integers
+    boundary: Integers
+    boundary_edges: Integers
+    generator_edges: Integers
+
+    def _facts(self):
+        return [counted(len(self.faces), "triangle"), counted(len(self.boundary), "boundary edge")]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -130,7 +157,8 @@ class FormStructure(Structure):
 
     def vectors(self, form: ArrayLike) -> Reals | Complexes:
         """(#T, 3) one closed form, (#E,) real or complex, as a vector of each triangle of the triangulation: in its
-        plane, with the form's values as products with its sides (paper Eq. 9). NaN in triangles without area.
+        plane, with the form's values as products with its sides (paper Eq. 9): of sides 0 and 2, which start and end at
+        the first corner. NaN in triangles without area.
 
         The star turns the vectors by a right angle. Raises InvalidMesh for an intrinsic surface."""
         form = np.asarray(form)
@@ -138,7 +166,20 @@ class FormStructure(Structure):
             form = self._checked_form(form.real) + 1j * self._checked_form(form.imag)
         else:
             form = self._checked_form(form)
-        return vectors(self._triangulation, form)
+        surface = self._triangulation
+        if surface.intrinsic:
+            raise InvalidMesh("vectors need positions, and this surface has edge lengths only")
+        first, second, third = np.moveaxis(surface.vertices[surface.triangles], 1, 0)
+        ahead, back = second - first, third - first
+        normal = np.cross(ahead, back)
+        sides = surface.triangle_edges[:, [0, 2]]
+        start, end = surface.triangles[:, [0, 0]], surface.triangles[:, [1, 2]]
+        along = np.where(start < end, form[sides], -form[sides])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            field = along[:, :1] * np.cross(back, normal) + along[:, 1:] * np.cross(normal, ahead)
+            field /= (normal**2).sum(axis=1)[:, None]
+        field[~np.isfinite(field)] = np.nan
+        return arrays.frozen(field)
 
     def uv(self, coefficients: ArrayLike) -> Reals:
         """(#C, 2) UVs of the differential sum_j c_j theta_j, one coefficient c_j for each: complex, real on surfaces
@@ -205,30 +246,12 @@ class CertifiedStructure(FormStructure):
 
     @cached_property
     def _domain_and_tree(self):
-        return domain_and_tree(self._native, self.edges)
+        faces, joined, half_edges, tree, left_over = self._native.fundamental_domain()
+        ends = self.edges[half_edges >> 1]
+        ends = np.where((half_edges & 1).astype(bool)[:, None], ends[:, ::-1], ends)
+        return FundamentalDomain(faces, joined, arrays.frozen(ends), arrays.frozen(half_edges >> 1), left_over), tree
 
     @cached_property
     def certificate(self) -> Certificate:
         """`Certificate`: the bounds, whether they are proven for the surface as given, and what was measured."""
         return certificate(self)
-
-
-def vectors(surface, form):
-    """(#T, 3) the tangent vector X of each triangle with X . e = form(e) on its sides, for a closed form, (#E,) real or
-    complex: of sides 0 and 2, which start and end at the first corner. NaN in triangles without area.
-
-    Raises InvalidMesh for an intrinsic surface, which has no tangent vectors in space.
-    """
-    if surface.intrinsic:
-        raise InvalidMesh("vectors need positions, and this surface has edge lengths only")
-    first, second, third = np.moveaxis(surface.vertices[surface.triangles], 1, 0)
-    ahead, back = second - first, third - first
-    normal = np.cross(ahead, back)
-    sides = surface.triangle_edges[:, [0, 2]]
-    start, end = surface.triangles[:, [0, 0]], surface.triangles[:, [1, 2]]
-    along = np.where(start < end, form[sides], -form[sides])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        field = along[:, :1] * np.cross(back, normal) + along[:, 1:] * np.cross(normal, ahead)
-        field /= (normal**2).sum(axis=1)[:, None]
-    field[~np.isfinite(field)] = np.nan
-    return arrays.frozen(field)

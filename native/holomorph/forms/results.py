@@ -1,4 +1,4 @@
-"""What the results of all kinds of surfaces have in common."""
+"""What the results of all kinds of surfaces have in common, and the reports on their solves."""
 
 from __future__ import annotations
 
@@ -15,12 +15,80 @@ from .. import _native
 from ..core import arrays
 from ..core.array_types import Integers, Progress, Reals
 from ..core.value import Solution, Value, counted
+from ..mesh.checks import checked_uv
 from ..mesh.surface import Surface
 from ..quality.quality import Quality
-from ..tiling.request import Request, asked_turns, part_of
-from ..tiling.tiling import Tiler
-from ..tiling.tilings import Poles, Tiling
-from .solver_report import Residuals, SolverReport
+from ..tiling.request import Poles, Request, asked_turns, part_of
+from ..tiling.tiling import Tiler, Tiling
+
+
+@dataclass(frozen=True, repr=False)
+class SolverReport(Value):
+    """Which solver was used and why; iterations (of multigrid or, by the paper's solver, on the surface itself; steps
+    of iterative refinement of the direct solver); the largest relative residual of the linear systems, or where forms
+    were refined, among thin triangles, their largest relative error in energy.
+
+    levels : (faces, iterations, seconds) of the paper's solver on each level of the progressive mesh, the base mesh
+        first and the surface last, where the seconds of a level include making its linear system, with boundary that of
+        its double; () for other solvers
+    """
+
+    name: str
+    reason: str
+    iterations: int
+    residual: float
+    levels: tuple[tuple[int, int, float], ...] = ()
+
+    @classmethod
+    def of(cls, native: object) -> Self:
+        """Makes one of a native report."""
+        levels = tuple((level.faces, level.iterations, level.seconds) for level in native.levels)
+        return cls(native.name, native.reason, native.iterations, native.residual, levels)
+
+    def _facts(self):
+        return [self.name, self.reason, counted(self.iterations, "iteration"), f"residual {self.residual:.2g}"]
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """Relative maxima over all harmonic forms, on the intrinsic triangulation that was solved on.
+
+    closedness: sum around a face over the largest value of the form; harmonicity: sum of k h at a vertex over the
+    largest sum of |k h|; periods: difference of the integral of h_j over zeta_i from delta_ij.
+    """
+
+    closedness: float
+    harmonicity: float
+    periods: float
+
+
+@dataclass(frozen=True)
+class ClosedResiduals(Residuals):
+    """And asymmetry: largest difference between the Gram matrix and its transpose, before it was made symmetric, over
+    its largest entry, where the forms were not kept; else 0."""
+
+    asymmetry: float
+
+
+@dataclass(frozen=True)
+class MemoryPlan:
+    """How a computation keeps within `memory_limit`. keeps_forms: all harmonic functions are kept in memory, else each
+    block of forms is freed once measured; block: right-hand sides solved for at a time; bytes: estimate of the most
+    memory in use at once, without the surface itself; not less than what was measured, and up to 2.5 times that, 30 MB
+    more of small surfaces."""
+
+    keeps_forms: bool
+    block: int
+    bytes: int
+
+
+@dataclass(frozen=True)
+class BoundedResiduals(Residuals):
+    """Those of both families; harmonicity at every vertex for the natural forms, at the inner ones for the Dirichlet
+    forms; periods of the natural forms. pairing: largest difference of the integral of h^N_i ^ h from what the integers
+    W say, for one h = sum of +-h^D_j."""
+
+    pairing: float
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -101,7 +169,7 @@ class Structure(Value):
 
     def quality(self, uv: ArrayLike) -> Quality:
         """`Quality` of a (#C, 2) UV map on the triangles of `edges`."""
-        return Quality.of(self._triangulation, self._checked_uv(uv), self._threads)
+        return Quality.of(self._triangulation, checked_uv(uv, self._component), self._threads)
 
     def tile(
         self,
@@ -123,7 +191,6 @@ class Structure(Value):
         lines: str = "none",
         marked: ArrayLike | None = None,
         cones: Mapping[int, float] | None = None,
-        surface: Surface | None = None,
         progress: Progress | None = None,
     ) -> Tiling:
         """A `Tiling`: a map of even density without visible seams, for textures that tile.
@@ -148,7 +215,7 @@ class Structure(Value):
             rounding may turn it away
         boundary : "automatic", "straight" or "free", see `Tiler`
         max_added : the largest `added_distortion` that is wanted; default any
-        allowed, surface : as in `tiler`
+        allowed : as in `tiler`
         moves : {index of a pole in the tiling: vertex} that it is moved to after the rounding, see `Tiler.move_poles`
 
         turns : 2, 4 or 6 where the texture looks the same after a half, a quarter or a sixth turn: then the two sides
@@ -165,13 +232,12 @@ class Structure(Value):
         Raises TopologyError for poles that do not fit, for fewer tiles than the surface needs (names how many are
         enough), and for more added distortion than `max_added` (names what can be had). Poles are kept.
         """
-        surface = self._connected if surface is None else surface
         asked = {"lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn, "boundary": boundary}
         asked |= {"max_added": max_added, "allowed": allowed, "moves": () if moves is None else moves}
         asked |= {"turns": asked_turns(turns, texture), "lines": lines, "marked": marked, "cones": cones}
         request = Request(tiles=tiles, density=density, poles=poles, evenness=evenness, **asked)
-        options = request.alone(self._component.area).tiling(surface)
-        return Tiling.of_core(self._core.tile(options, threads=self._threads, progress=progress), surface)
+        options = request.alone(self._component.area).tiling(self._connected)
+        return Tiling.of_core(self._core.tile(options, threads=self._threads, progress=progress), self._connected)
 
     def tiler(
         self,
@@ -180,19 +246,13 @@ class Structure(Value):
         boundary: str = "automatic",
         allowed: ArrayLike | None = None,
         evened: bool = False,
-        surface: Surface | None = None,
         progress: Progress | None = None,
     ) -> Tiler:
         """The `Tiler` of the surface; the last ones are kept, with the poles that they placed, until others are asked
-        for.
-
-        surface : the one whose vertices poles are named by, without its isolated vertices the same as was solved on;
-            default: that of the structure, where it is connected
-        """
-        surface = self._connected if surface is None else surface
-        asked = Request(poles=poles, boundary=boundary, allowed=allowed).tiling(surface)
+        for."""
+        asked = Request(poles=poles, boundary=boundary, allowed=allowed).tiling(self._connected)
         core = self._core.tiler(asked, evened=bool(evened), threads=self._threads, progress=progress)
-        return Tiler.of_core(surface, core, self._threads)
+        return Tiler.of_core(self._connected, core, self._threads)
 
     def averaged_star(self, form: ArrayLike) -> Reals:
         """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an
@@ -204,12 +264,6 @@ class Structure(Value):
         if form.shape != (len(self.edges),):
             raise ValueError(f"form has the shape {form.shape}; ({len(self.edges)},) is needed")
         return form
-
-    def _checked_uv(self, uv):
-        uv = arrays.numbers(uv, "uv")
-        if uv.shape != (len(self._component.corner_vertices), 2):
-            raise ValueError(f"uv has the shape {uv.shape}; ({len(self._component.corner_vertices)}, 2) is needed")
-        return uv
 
     def _at_vertices(self, values, missing=np.nan):
         """Values at the component's vertices as values at the surface's, `missing` at isolated ones."""
@@ -230,6 +284,5 @@ def result(kind, surface, component, native, threads, **more):
     seconds["total"] = sum(seconds.values())
     found = native.residuals()
     residuals = kind.residuals_kind(**{entry.name: getattr(found, entry.name) for entry in fields(kind.residuals_kind)})
-    return kind(
-        surface, SolverReport.of(native.solver()), residuals, seconds, Solution(native), component, threads, **more
-    )
+    report, solution = SolverReport.of(native.solver()), Solution(native)
+    return kind(surface, report, residuals, seconds, solution, component, threads, **more)

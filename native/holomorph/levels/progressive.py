@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import io
 import math
-import os
+import zlib
 from collections.abc import Sequence
 from functools import cached_property, partial
 from typing import Any
+from zipfile import BadZipFile, ZipFile
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,16 +18,44 @@ from .._native import InvalidMesh
 from ..core import arrays
 from ..core.array_types import FilePath, Integers, Progress
 from ..core.value import Value, quoted
-from ..forms.bounded import BoundedStructure
-from ..forms.closed import ConformalStructure
+from ..files import whole_file
 from ..forms.results import result
-from ..mesh.checks import as_float, check_memory_limit, check_options, check_thresholds, check_type
+from ..forms.structure import BoundedStructure, ConformalStructure
+from ..mesh.checked_mesh import naming
+from ..mesh.checks import as_float, check_memory_limit, check_name, check_options, check_thresholds, check_type
 from ..mesh.origin import Origin
 from ..mesh.surface import Surface
-from . import level_forms, levels, stored
-from .splits import structured_splits
+from . import levels
 
 ORDERS = ("quadric", "independent")
+SPLIT = np.dtype(
+    [
+        ("v_s", np.int32),
+        ("v_t", np.int32),
+        ("v_l", np.int32),
+        ("v_r", np.int32),
+        ("position", np.float64, 3),
+        ("vertex", np.int32),
+        ("triangles", np.int32, 2),
+        ("slots", np.uint8, 2),
+        ("corners", np.int32, (2, 3)),
+    ]
+)
+ROWS = {
+    "base_triangles": (np.int32, (3,)),
+    "split_vertices": (np.int32, (3,)),
+    "split_slots": (np.uint8, (2,)),
+    "positions": (np.float64, (3,)),
+    "vertex_index": (np.int32, ()),
+    "triangle_index": (np.int32, ()),
+    "triangle_corners": (np.int32, (3,)),
+    "face_offsets": (np.int32, ()),
+}
+"""The type and shape of one row of each."""
+
+# What NumPy and zipfile raise for bytes that are no file of arrays: RuntimeError also for ways of compression that they
+# do not know, MemoryError for what the first bytes of an array ask for.
+DAMAGED = ValueError, KeyError, EOFError, OSError, RuntimeError, MemoryError, BadZipFile, zlib.error
 
 
 class ProgressiveMesh(Value):
@@ -67,8 +97,7 @@ class ProgressiveMesh(Value):
         progress: Progress | None = None,
     ) -> None:
         check_type(surface, Surface)
-        if order not in ORDERS:
-            raise ValueError(f"order is {quoted(order)}; one of {', '.join(map(repr, ORDERS))} is needed")
+        check_name(order, ORDERS, "order")
         self.corner_data = None if corner_data is None else _checked(corner_data, len(surface.corner_vertices))
         vertices = arrays.integer(kept if np.size(kept) else np.empty(0, np.int64), "kept")
         if len(vertices) and not 0 <= vertices.min() <= vertices.max() < surface._native.vertex_count:
@@ -85,27 +114,25 @@ class ProgressiveMesh(Value):
             if the file is missing or damaged; every count, index and split is checked.
         """
         mesh = cls.__new__(cls)
-        try:
-            mesh.__setstate__(stored.read(path))
-        except OSError as error:
-            raise InvalidMesh(f"{os.fspath(path)}: {error.strerror}") from error
-        except InvalidMesh as error:
-            raise InvalidMesh(f"{os.fspath(path)}: {error}") from error
+        with naming(path):
+            mesh.__setstate__(_read(path))
         return mesh
 
     def save(self, path: FilePath) -> None:
         """Writes one .npz file, whatever its name: the arrays of the base, of the splits and of their attributes."""
-        stored.write(path, self.__getstate__())
+        content = io.BytesIO()
+        np.savez(content, **self.__getstate__())
+        whole_file.write(path, content.getbuffer())
 
     def _facts(self):
         return [f"{len(self._native.base_triangles)} to {len(self._native.triangle_index)} triangles"]
 
     def __getstate__(self):
-        state = stored.arrays_of(self._native)
+        state = {name: getattr(self._native, name) for name in ROWS}
         return state if self.corner_data is None else {**state, "corner_data": self.corner_data}
 
     def __setstate__(self, state):
-        self._native = stored.native_of(state)
+        self._native = _native_of(state)
         data = state.get("corner_data")
         self.corner_data = None if data is None else _checked(data, self._corner_count)
 
@@ -127,7 +154,20 @@ class ProgressiveMesh(Value):
         slots : the corner of the left triangle that is v_s, that of the right one that is v_t
         corners : polygon corners of the original at the corners of both triangles, whose `corner_data` they have
         """
-        return arrays.frozen(structured_splits(self._native, self._corners))
+        v_s, v_l, v_r = self._native.split_vertices.T
+        splits = np.empty(len(v_s), SPLIT)
+        first, count = self._native.base_vertex_count, len(v_s)
+        splits["v_s"], splits["v_l"], splits["v_r"] = v_s, v_l, v_r
+        splits["v_t"] = np.arange(first, first + count)
+        splits["slots"] = self._native.split_slots
+        splits["position"] = self._native.positions[first : first + count]
+        splits["vertex"] = self._native.vertex_index[first : first + count]
+        present = np.stack([v_l, v_r], axis=1) >= 0
+        triangle = len(self._native.base_triangles) + np.cumsum(present.ravel()).reshape(present.shape) - 1
+        triangle = np.where(present, triangle, 0)
+        splits["triangles"] = np.where(present, self._native.triangle_index[triangle], -1)
+        splits["corners"] = np.where(present[:, :, None], self._corners[triangle], -1)
+        return arrays.frozen(splits)
 
     @cached_property
     def _corners(self):
@@ -147,6 +187,8 @@ class ProgressiveMesh(Value):
     # Defined in levels.py.
     level_corner_data = levels.level_corner_data
     levels_of_detail = levels.levels_of_detail
+    lift_loops = levels.lift_loops
+    pull_back_forms = levels.pull_back_forms
 
     @property
     def _corner_count(self):
@@ -232,9 +274,35 @@ class ProgressiveMesh(Value):
         result[self._native.vertex_index[: len(mapped)]] = mapped
         return result
 
-    # Defined in level_forms.py.
-    lift_loops = level_forms.lift_loops
-    pull_back_forms = level_forms.pull_back_forms
+
+def _native_of(given):
+    """The native progressive mesh of its arrays; every count, index and split is checked. Raises InvalidMesh"""
+    for name, (kind, shape) in ROWS.items():
+        if name not in given:
+            raise InvalidMesh(f"the progressive mesh has no array {name}")
+        array = given[name]
+        if array.dtype.newbyteorder("=") != kind or array.ndim == 0 or array.shape[1:] != shape:
+            raise InvalidMesh(f"the progressive mesh is damaged: {name} has the wrong type or shape")
+    if len(given["split_vertices"]) != len(given["split_slots"]):
+        raise InvalidMesh("the progressive mesh is damaged: there are not as many slots as splits")
+    return _native.ProgressiveMesh.of_arrays(**{name: given[name] for name in ROWS})
+
+
+def _read(path):
+    """{name: array}. Raises InvalidMesh for what is no such file"""
+    try:
+        content = whole_file.read(path)
+    except OSError as error:
+        raise InvalidMesh(error.strerror) from error
+    try:
+        with ZipFile(io.BytesIO(content)) as file:
+            # Nothing is compressed: a small file does not take much memory.
+            if sum(member.file_size for member in file.infolist()) > len(content):
+                raise BadZipFile("it is compressed")
+        with np.load(io.BytesIO(content), allow_pickle=False) as file:
+            return dict(file)
+    except DAMAGED as error:
+        raise InvalidMesh(f"it is no undamaged .npz file of a progressive mesh ({error})") from error
 
 
 def _checked(corner_data, corner_count):

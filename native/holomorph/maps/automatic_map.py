@@ -15,8 +15,7 @@ from ..core.array_types import Progress
 from ..core.progress import scaled
 from ..mesh.checks import check_list, check_threads, check_type, checked_evenness, only_component
 from ..mesh.surface import Surface
-from ..tiling.request import AUTOMATIC, EVENNESS, Request, asked_turns, part_of
-from ..tiling.tilings import Poles
+from ..tiling.request import AUTOMATIC, EVENNESS, Poles, Request, asked_turns, part_of
 from .automatic_structure import AnyStructure, LateStructure
 from .map import Map, Refusal, map_objects
 

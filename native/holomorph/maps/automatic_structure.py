@@ -13,23 +13,17 @@ from .. import _native
 from ..core.array_types import Complexes, Integers, Progress
 from ..core.arrays import frozen, integer
 from ..core.value import Value, counted
-from ..forms.bounded import BoundedStructure
-from ..forms.closed import ConformalStructure
-from ..forms.log_map import log_map
-from ..forms.pole_structure import PoleStructure
+from ..forms.log_map import PoleStructure, log_map
 from ..forms.results import result
-from ..forms.structure import BOUNDARIES, conformal_structure
+from ..forms.structure import BOUNDARIES, BoundedStructure, ConformalStructure, conformal_structure
 from ..mesh.checks import check_thresholds, only_component
 from ..mesh.edges import around_boundary
 from ..mesh.surface import Surface
 from ..plane.cut import cut_along
-from ..plane.disk import default_disk_map, disk_map, disk_structure_of, free_boundary_map, rectangle_map
-from ..plane.plane_maps import DiskMap, FreeBoundaryMap, RectangleMap
+from ..plane.disk import PlaneMap, default_disk_map, disk_map, disk_structure_of, free_boundary_map, rectangle_map
 from ..tiling.request import part_of
 
-AnyStructure: TypeAlias = (
-    ConformalStructure | BoundedStructure | PoleStructure | DiskMap | FreeBoundaryMap | RectangleMap
-)
+AnyStructure: TypeAlias = ConformalStructure | BoundedStructure | PoleStructure | PlaneMap
 Vertices: TypeAlias = Sequence[int] | Integers
 
 

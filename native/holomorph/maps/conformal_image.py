@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.array_types import Reals
-from ..forms.pole_structure import PoleStructure
+from ..forms.log_map import PoleStructure
 from ..forms.results import Structure
 from ..mesh.checks import check_type
-from ..plane.plane_maps import DiskMap
+from ..plane.disk import DiskMap
 from .automatic_structure import AnyStructure, LateStructure
 
 

@@ -17,7 +17,7 @@ from ..core import arrays
 from ..core.array_types import Complexes, Integers, Progress, Reals
 from ..core.value import Value
 from ..mesh.checks import check_threads
-from ..mesh.folds import folds
+from ..mesh.hard_edges import folds
 from ..mesh.surface import Surface
 from ..quality.appearance import CONE, HARD_SEAM, POLE, SEAM, cost
 from ..quality.distortion import WorstPlace, drawn_density, worst_places
@@ -25,7 +25,7 @@ from ..quality.quality import Quality
 from ..quality.verdicts import Seen, Verdict, verdict
 from ..tiles.tiled_surface import TiledSurface
 from ..tiling.request import Request, Size, plain_size
-from ..tiling.tilings import Tiling, vertices_of
+from ..tiling.tiling import Tiling, vertices_of
 from .automatic_structure import AnyStructure, LateStructure, structure_of
 
 # Times the root of its own area that a map is wide: single precision has no room for others then.

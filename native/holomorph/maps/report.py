@@ -15,15 +15,14 @@ from numpy.typing import ArrayLike
 
 from ..core.value import plain, rounded
 from ..forms.form_structure import CertifiedStructure
-from ..mesh.cut_open import next_sides
-from ..mesh.hard_edges import cuts
+from ..mesh.hard_edges import cuts, next_sides
 from ..quality.quality import Quality
 from ..quality.verdicts import Seen, Verdict, baking, total_cost, verdict
 from .arrangement import Arrangement, square
 from .automatic_structure import LateStructure
 
 if TYPE_CHECKING:
-    from ..mesh.repairs import Refused, Repairs
+    from ..mesh.origin import Refused, Repairs
     from ..mesh.surface import Surface
     from .automatic_structure import AnyStructure
     from .map import Map

@@ -43,21 +43,17 @@ def of_file(path, strict, weld, up):
     formats.require_reader(path)
     if scene := scenes.kind(path):
         polygons, notes = scenes.read(path, weld or strict)
-        with _naming(path):
+        with naming(path):
             surface, origin = _of(*polygons, strict)
         return surface, origin._replace(up=up or scene.UP, notes=notes)
-    return of_read(_native.FileMesh.read(os.fspath(path), weld), path, strict, up)
-
-
-def of_read(file, path, strict, up):
-    """Makes one of a native `FileMesh`, from which its arrays are then gone."""
-    with _naming(path):
-        part = file.surface(strict)
+    file = _native.FileMesh.read(os.fspath(path), weld)
+    with naming(path):
+        part = file.surface(strict)  # whose arrays are then gone from the file
     return part.surface, Origin.of_part(part, up or ("Y" if str(path).lower().endswith(".obj") else "Z"))
 
 
 @contextlib.contextmanager
-def _naming(path):
+def naming(path):
     """What a file holds may be refused once it is read: its path is told then, too."""
     try:
         yield

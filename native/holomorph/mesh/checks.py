@@ -1,13 +1,17 @@
 """Checks of what results are made from."""
 
-import cmath
+from __future__ import annotations
+
 import math
 import numbers
 import os
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .._native import TopologyError
+from ..core import arrays
+from ..core.array_types import Reals
 from ..core.value import quoted
 from .surface import Surface
 
@@ -87,17 +91,6 @@ def whole_number(value: object, name: str, least: int = 0) -> int:
     return int(found)
 
 
-def complex_number(value: object, name: str) -> complex:
-    """`value` as a finite complex number. @throws ValueError"""
-    try:
-        found = complex(value) if isinstance(value, numbers.Complex) else complex(math.nan)
-    except OverflowError:
-        found = complex(math.inf)
-    if not cmath.isfinite(found):
-        raise ValueError(f"{name} is {quoted(value)}; a finite number is needed")
-    return found
-
-
 def check_list(value, name):
     """@throws ValueError where `value` has no entries to go through"""
     if isinstance(value, (str, bytes)) or not np.iterable(value):
@@ -143,6 +136,15 @@ def own_vertices(surface, component, vertices, noun):
     for vertex in given[own[given.astype(int)] < 0]:
         raise TopologyError(f"{noun} {vertex} belongs to no face")
     return own[given.astype(int)].tolist(), component.vertex_index.tolist()
+
+
+def checked_uv(uv: ArrayLike, surface: Surface, is_finite: bool = False) -> Reals:
+    """`uv` as reals, (#C, 2) at the polygon corners of the surface. @throws ValueError"""
+    uv, count = arrays.numbers(uv, "uv"), len(surface.corner_vertices)
+    if uv.shape != (count, 2) or (is_finite and not np.isfinite(uv).all()):
+        wanted = f"({count}, 2) {'finite numbers are' if is_finite else 'is'} needed"
+        raise ValueError(f"uv has the shape {uv.shape}; {wanted}")
+    return uv
 
 
 def checked_coefficients(coefficients, count, kind):

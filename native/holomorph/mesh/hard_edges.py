@@ -1,4 +1,4 @@
-"""Where a surface breaks off: edges between faces that meet at an angle, and tips that only a cut can flatten."""
+"""Where a surface breaks off or is folded: edges between faces that meet at an angle."""
 
 from __future__ import annotations
 
@@ -8,22 +8,15 @@ import numpy as np
 
 from .. import _native
 from ..core.array_types import Integers, Reals
-from .cut_open import next_sides
 from .edges import edge_keys
 from .surface import Surface
 
-TIP = np.pi / 3  # radians that are missing around a vertex, or too many
+SHARP = 150.0  # degrees between the normals of two faces: a fold, or a blade
 
 
 def is_hard(surface, degrees):
     """(#E,) whether an edge bends by more than an angle."""
     return _native.bends(surface._native) > np.radians(degrees)
-
-
-def breaks(surface):
-    """(#E,) radians by which a surface breaks off at an edge: the bend of its two faces, or the angle between the
-    facets to both sides (mesh/hard_edges.h), if that is more."""
-    return _native.breaks(surface._native)
 
 
 def cuts(parts: Sequence[Surface]) -> tuple[Integers, Integers, Reals, Reals]:
@@ -49,15 +42,6 @@ def cuts(parts: Sequence[Surface]) -> tuple[Integers, Integers, Reals, Reals]:
     return of[pairs], sides, lengths[pairs[0]], _native.seen(_angles(one, -other))
 
 
-def curvature(surface, is_seam=(), most=np.inf):
-    """The sum over the inner vertices of the angle that is missing around each, or too much, in radians.
-
-    is_seam : (#E,) edges whose vertices do not count
-    most : vertices where it is more do not count, such as `TIP`
-    """
-    return _native.curvature(surface._native, is_seam, most)
-
-
 def _joined(arrays):
     return np.concatenate(list(arrays))
 
@@ -65,3 +49,19 @@ def _joined(arrays):
 def _angles(one, other):
     """(n,) radians between (n, 3) vectors."""
     return np.arctan2(np.linalg.norm(np.cross(one, other), axis=1), np.einsum("ij,ij->i", one, other))
+
+
+def next_sides(sides: Integers) -> Integers:
+    """The side that follows each one in its triangle, numbered through all triangles."""
+    return np.where(sides % 3 == 2, sides - 2, sides + 1)
+
+
+def folds(surface, threads=0):
+    """(#E,) whether an edge bends by more than `SHARP`, and a face beside it goes through another one. Blades and
+    sheets with two sides bend, and do not cross."""
+    result = np.zeros(len(surface._native.edges), bool)
+    sharp = np.flatnonzero(is_hard(surface, SHARP))
+    if len(sharp):
+        crossing = np.unique(_native.crossings(surface.vertices, surface.triangles, threads=threads))
+        result[sharp] = np.isin(sharp, surface._native.triangle_edges[crossing])
+    return result

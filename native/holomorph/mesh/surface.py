@@ -16,8 +16,7 @@ from ..core.array_types import FilePath, Integers, Reals
 from ..core.value import Value, freeze
 from ..files import formats
 from . import checked_mesh
-from .origin import AS_GIVEN
-from .repairs import Refused, Repairs
+from .origin import AS_GIVEN, Refused, Repairs
 
 UNWELDED = "every face is separate: strict=False joins those that touch along a whole side"
 
@@ -223,12 +222,10 @@ class Surface(Value):
 
     def require_connected(self) -> None:
         """Raises TopologyError if there are several components."""
-        if self._native.component_count != 1:
+        count = self._native.component_count
+        if count != 1:
             hint = f"; {UNWELDED}" if self.is_unwelded else ""
-            raise TopologyError(
-                f"the surface has {self._native.component_count} connected components; take one of surface.components"
-                + hint
-            )
+            raise TopologyError(f"the surface has {count} connected components; take one of surface.components{hint}")
 
     @property
     def euler_characteristic(self) -> int:

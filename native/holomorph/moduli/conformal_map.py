@@ -16,13 +16,12 @@ from ..core import arrays
 from ..core.array_types import Integers, Progress, Reals
 from ..core.progress import scaled
 from ..core.value import Value, counted
-from ..forms.bounded import BoundedStructure
-from ..forms.closed import ConformalStructure
 from ..forms.refined_triangles import areas
+from ..forms.structure import BoundedStructure, ConformalStructure
+from ..mesh.checks import checked_uv
 from ..mesh.surface import Surface
-from .equivalence import AGREEING, Equivalence, by_topology, checked_tolerance, compared
-from .known_periods import side_of
-from .map_sides import sides
+from ..mesh.surgery import double_cover
+from .equivalence import AGREEING, Equivalence, by_topology, checked_tolerance, compared, side_of
 
 STARTS = 12  # points of the second surface that are tried for one of the first
 SAMPLES = 16  # points of the first surface that are tried
@@ -77,10 +76,7 @@ class ConformalMap(Value):
 
         Raises ValueError for another shape or numbers that are not finite; Cancelled. Cost: linear."""
         first, second = self._surfaces
-        uv = np.asarray(uv, dtype=np.float64)
-        count = len(second.corner_vertices)
-        if uv.shape != (count, 2) or not np.isfinite(uv).all():
-            raise ValueError(f"uv has the shape {uv.shape}; ({count}, 2) finite numbers are needed")
+        uv = checked_uv(uv, second, is_finite=True)
         return _native.carried_uv(first._native, self.triangles, self.barycentric, second._native, uv, progress)
 
 
@@ -235,3 +231,87 @@ def _result(a, b, matching, found, progress):
 
 def _size(made):
     return float((made.residuals**2).sum(axis=1).mean())
+
+
+@dataclass(frozen=True, eq=False)
+class Side:
+    """surface : native triangulation; forms : (n, #E); starts : (k, 2) triangle and corner at which maps may begin;
+    is_at_corner : whether they begin there exactly, as on a boundary, or in the triangle's middle; own_count : how many
+    of its triangles, the first, are the surface's own: on a double the others are their reflections"""
+
+    surface: _native.Surface
+    forms: Reals
+    starts: Integers
+    is_at_corner: bool
+    own_count: int
+
+    @property
+    def vertices(self):
+        """(k,) of the starts."""
+        return self.surface.triangles[self.starts[:, 0], self.starts[:, 1]]
+
+    def residual(self, triangle, corner):
+        """(n,) minus the integrals from the start to the middle of its triangle."""
+        if not self.is_at_corner:
+            return np.zeros(len(self.forms))
+        along = _along_sides(self.surface, self.forms[:, self.surface.triangle_edges[[triangle]]], [triangle])[:, 0]
+        return (along[:, corner - 1] - along[:, corner]) / 3
+
+
+def sides(a, b, found):
+    """Both sides of a map from structure `a` to `b`, whose classes correspond by the `Equivalence`. The boundary of `b`
+    is no obstacle: its side is the double, whose first triangles are those of the surface."""
+    if isinstance(a, BoundedStructure):
+        return _bounded_sides(a, b, found)
+    whiten = np.linalg.inv(np.linalg.cholesky(b._native.natural_gram()))
+    forms = whiten @ found.matrix @ a.harmonic_forms, whiten @ b.harmonic_forms
+    return tuple(_closed_side(structure, values) for structure, values in zip((a, b), forms))
+
+
+def _closed_side(structure, forms):
+    surface = structure._triangulation
+    everywhere = np.stack([np.arange(len(surface.triangles)), np.zeros(len(surface.triangles), int)], axis=1)
+    return Side(surface, forms, everywhere, is_at_corner=False, own_count=len(surface.triangles))
+
+
+def _bounded_sides(a, b, found):
+    """The forms are the Dirichlet ones and their conjugates, symmetric on the double, which a reflection reverses."""
+    whiten = np.linalg.inv(np.linalg.cholesky(b.projected_gram_matrices[1]))
+    sign = -1 if found.verdict == "mirror_image" else 1
+    matrix = whiten @ found.matrix
+    forms = np.concatenate([matrix @ a.dirichlet_forms, sign * matrix @ _conjugates(a)])
+    first, second = a._triangulation, b._triangulation
+    double = double_cover(Surface._of(second))._native
+    both = (b.dirichlet_forms, -1), (_conjugates(b), 1)
+    parts = [_on_double(second, double, whiten @ values, parity) for values, parity in both]
+    return _bounded_side(first, first, forms), _bounded_side(double, second, np.concatenate(parts))
+
+
+def _bounded_side(surface, own, forms):
+    return Side(surface, forms, _boundary_sides(own), is_at_corner=True, own_count=len(own.triangles))
+
+
+def _conjugates(structure):
+    return -np.linalg.solve(structure.star, structure.natural_forms)
+
+
+def _boundary_sides(surface):
+    """(k, 2) triangle and side."""
+    on_boundary = np.bincount(surface.triangle_edges.ravel(), minlength=len(surface.edges)) == 1
+    return np.argwhere(on_boundary[surface.triangle_edges])
+
+
+def _along_sides(surface, values, triangles=slice(None)):
+    """The values on edges along the sides, of which none is a loop."""
+    corners = surface.triangles[triangles]
+    return values * np.where(corners < np.roll(corners, -1, axis=1), 1, -1)
+
+
+def _on_double(surface, double, forms, parity):
+    """(n, #E of the double): the same on dual edges, or the negative where `parity` is -1. Side 2 - k of a triangle in
+    the second copy lies over side k, and runs backwards."""
+    along = _along_sides(surface, forms[:, surface.triangle_edges])
+    both = np.concatenate([along, -parity * along[:, :, ::-1]], axis=1)
+    result = np.empty((len(forms), len(double.edges)))
+    result[:, double.triangle_edges] = _along_sides(double, both)
+    return result

@@ -5,20 +5,19 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _native
-from ..core.array_types import Integers, Progress
+from ..core import arrays
+from ..core.array_types import Complexes, Integers, Progress
 from ..core.progress import scaled
 from ..core.value import Value, quoted
-from ..forms.bounded import BoundedStructure
-from ..forms.closed import ConformalStructure
+from ..forms.certificate import checked_period_matrix, distance_within
 from ..forms.results import Structure
-from ..forms.structure import conformal_structure
-from ..mesh.checks import real_number
+from ..forms.structure import BoundedStructure, ConformalStructure, conformal_structure
+from ..mesh.checks import only_component, real_number
 from ..mesh.surface import Surface
-from .known_periods import KnownPeriods, period_lattice, side_of
-from .planar import LOOPS_OF_ACHIRAL_SURFACES, planar_verdict
 
 ROUNDING = 1e-9  # relative error of residuals
 AGREEMENT = 0.25  # of the error bars: projected periods are more accurate, so meshes of one surface agree to less
@@ -28,6 +27,12 @@ MOST_NARROWINGS = 3
 VERDICTS = ("equivalent", "indistinguishable", "mirror_image", "not_equivalent", "undecided")
 AGREEING = VERDICTS[:3]
 STEPS = _native.isometry_steps  # limit of one search among integer matrices
+LOOPS_OF_ACHIRAL_SURFACES = 3
+"""Disks, annuli and pairs of pants are their own mirror images."""
+
+SAMPLES = 200  # triangles of the first surface that are looked for on the second
+CLEARLY = 4.0  # by this factor the one has to fit better
+ALIKE = 1e-2  # both do where neither misses by more
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -272,3 +277,88 @@ def _rounded(value, rounding):
         return value
     unit = 10.0 ** (math.floor(math.log10(value)) - 1)
     return rounding(value / unit) * unit
+
+
+def planar_verdict(a, b, matrix):
+    """ "indistinguishable", "mirror_image" or "undecided", of structures whose Dirichlet forms correspond by `matrix`.
+
+    At corresponding points the holomorphic forms have proportional values, at those of a mirror image conjugate ones
+    (the canonical map): measured, not bounded."""
+    whitened = np.linalg.inv(np.linalg.cholesky(b.projected_gram_matrices[1]))
+    first, second = _values(a, whitened @ matrix), _values(b, whitened)
+    first = first[np.linspace(0, len(first) - 1, SAMPLES).astype(int)]
+    same, mirrored = (_miss(values, second) for values in (first, first.conj()))
+    if max(same, mirrored) < ALIKE or CLEARLY * same < mirrored:
+        return "indistinguishable"
+    return "mirror_image" if CLEARLY * mirrored < same else "undecided"
+
+
+def _values(structure, matrix):
+    """(k, n) unit vectors: the holomorphic forms whose real parts are the Dirichlet forms, in each triangle but those
+    where all are 0, for all corners lie on one boundary loop."""
+    slopes = _native.form_slopes(structure._triangulation, np.ascontiguousarray(structure.dirichlet_forms))
+    values = (slopes @ np.array([1, -1j])) @ matrix.T
+    norms = np.linalg.norm(values, axis=1, keepdims=True)
+    has_value = norms[:, 0] > 0
+    return values[has_value] / norms[has_value]
+
+
+def _miss(values, others):
+    """The mean, over `values`, of the sine of the angle to the nearest of `others`, as complex lines."""
+    likeness = np.abs(others.conj() @ values.T).max(axis=0)
+    return float(np.sqrt(np.maximum(0, 1 - likeness**2)).mean())
+
+
+class KnownPeriods:
+    """The closed surfaces with a period matrix. It is as exact as its `error` says, at most to rounding; one without is
+    as symmetric as it is exact."""
+
+    boundary_count = 0
+
+    def __init__(self, period_matrix):
+        omega = checked_period_matrix(period_matrix)
+        unit = np.finfo(float).eps / 2
+        change = np.abs(np.asarray(period_matrix) - omega) + 2 * len(omega) * unit * np.abs(omega)
+        self.period_matrix: Complexes = arrays.frozen(omega)
+        self.error = getattr(period_matrix, "error", 0.0) + distance_within(omega, change)
+        # Half a unit in the last place of each entry, and the error of a distance that is measured.
+        self.rounding = distance_within(omega, unit * np.abs(omega)) + len(omega) * unit
+        self.is_exact = self.error <= 2 * len(omega) * self.rounding
+        self.genus = len(omega)
+        widths = np.exp([-self.error, self.error])
+        self.period_bounds = widths[0] * omega.imag, widths[1] * omega.imag
+        self._topology = _native.TopologicalType(self.genus, 0)
+
+    def lattice(self):
+        """The lattice in the classes dual to the canonical basis; the first g are dual to the a_i."""
+        real, imaginary = self.period_matrix.real, self.period_matrix.imag
+        inverse = np.linalg.inv(imaginary)
+        gram = np.block([[imaginary + real @ inverse @ real, -real @ inverse], [-inverse @ real, inverse]])
+        one, none = np.eye(self.genus, dtype=np.int64), np.zeros((self.genus, self.genus), np.int64)
+        upper = np.exp(self.error) * (gram + gram.T) / 2
+        return _native.PeriodLattice.closed(upper, np.block([[none, one], [-one, none]]))
+
+
+def period_lattice(structure):
+    """The native lattice of integer classes with their energies: of a closed structure, of one with boundary, of
+    `KnownPeriods`."""
+    if isinstance(structure, KnownPeriods):
+        return structure.lattice()
+    gram = structure._native.certain_gram_matrices()
+    if isinstance(structure, BoundedStructure):
+        return _native.PeriodLattice.bounded(*gram, structure.pairing, structure._component.genus)
+    wedge = -np.rint(np.linalg.inv(structure.intersection_matrix)).astype(np.int64)
+    return _native.PeriodLattice.closed(gram[0], wedge)
+
+
+def side_of(given):
+    """The connected surface, or `KnownPeriods`, of what is to be compared."""
+    if isinstance(given, (Surface, Structure)):
+        return only_component(given.surface if isinstance(given, Structure) else given)
+    try:
+        is_numeric = np.asarray(given).dtype.kind in "iufc"
+    except ValueError:  # rows of different lengths
+        is_numeric = False
+    if not is_numeric:
+        raise TypeError(f"surfaces, structures or period matrices are compared, not {type(given).__name__}")
+    return KnownPeriods(given)

@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike
 
 from .._native import TopologyError
 from ..core.value import Solution
+from ..forms.log_map import TruncatedStructure
 from ..forms.results import Structure
-from ..forms.truncated import TruncatedStructure
 from ..mesh.checks import check_type, own_vertices
 from ..mesh.edges import edge_keys, edges_of_keys, polygon_sides
-from .plane_maps import PlaneMap
+from .disk import PlaneMap
 
 AStructure = TypeVar("AStructure", bound=Structure)
 
@@ -71,7 +71,6 @@ def interior_edges(component, pairs, given):
         raise TopologyError(f"the cut runs between the vertices {a} and {b}, which no edge of a face joins")
     wanted = np.unique(wanted[uses[place] == 2])
     edges = component._native.edges
-    diagonals = len(component.triangles) - (
-        len(component.face_offsets) - 1
-    )  # a polygon of n corners has n - 2 triangles
+    # A polygon of n corners has n - 2 triangles.
+    diagonals = len(component.triangles) - (len(component.face_offsets) - 1)
     return np.sort(edges_of_keys(edges[: len(edges) - diagonals], wanted, count))

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from .. import _native
+from ..core.array_types import Complexes, Progress
 
 if TYPE_CHECKING:
     from .quality import Quality
@@ -37,3 +38,13 @@ def of_direction(quality: "Quality") -> float:
     """The part of the cost that is of a texture that does not stand upright, by the sine of the angle."""
     direction = quality.direction
     return 0.0 if direction is None else _native.cost_of_direction(direction.angle, direction.steep, direction.area)
+
+
+def overlapping_part(curve: Complexes, progress: Progress | None = None) -> float:
+    """The part of the region around which closed curves wind that they wind around more than once: 0 where the map that
+    they bound lies beside itself nowhere. See uv/quality.h.
+
+    curve : (n, 2) complex ends of directed edges, which make closed curves
+    progress : is asked whether to go on
+    """
+    return _native.overlapping_part(curve, progress)

@@ -98,17 +98,10 @@ class Seen:
         lists = {field.name: [getattr(part, field.name) for part in parts] for field in fields(cls)}
         poles, seams = ([value for value in lists[name] if value is not None] for name in ("poles", "seams"))
         is_tiled = weights @ [value is not None for value in lists["poles"]] >= TILED
-        return cls(
-            float(weights @ lists["cost"]),
-            float(weights @ [value or 0.0 for value in lists["seams"]]) if seams else None,
-            float(weights @ lists["hidden"]),
-            sum(poles) if is_tiled else None,
-            max(lists["turns"]) if is_tiled else 1,
-            sum(lists["cones"]) if is_tiled else 0,
-            _most_lines(lists, weights),
-            float(weights @ lists["folded"]),
-            unmapped,
-        )
+        means = {name: float(weights @ lists[name]) for name in ("cost", "hidden", "folded")}
+        means["seams"] = float(weights @ [value or 0.0 for value in lists["seams"]]) if seams else None
+        tiled = {"poles": sum(poles), "turns": max(lists["turns"]), "cones": sum(lists["cones"])} if is_tiled else {}
+        return cls(**means, **tiled, lines=_most_lines(lists, weights), unmapped=unmapped)
 
 
 def verdict(quality: Quality, seen: Seen = Seen()) -> Verdict:

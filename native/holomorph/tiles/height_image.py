@@ -99,9 +99,8 @@ def _values(picture, content, pillow):
 def _sixteen_bits(picture, content, pillow):
     """(rows, columns) of a PNG with alpha or colours, of which Pillow reads the higher bytes; here come the others."""
     if content[DEPTH_AND_KIND] == GREY_WITH_ALPHA:  # which has as many bytes as four channels of 8 bits
-        header = (
-            content[HEADER.start : DEPTH_AND_KIND.start] + FOUR_CHANNELS + content[DEPTH_AND_KIND.stop : HEADER.stop]
-        )
+        begin, end = content[HEADER.start : DEPTH_AND_KIND.start], content[DEPTH_AND_KIND.stop : HEADER.stop]
+        header = begin + FOUR_CHANNELS + end
         told = content[: HEADER.start] + header + struct.pack(">I", zlib.crc32(header)) + content[HEADER_SUM.stop :]
         with pillow.open(io.BytesIO(told), formats=["PNG"]) as channels:
             return _joined(*(channels.getchannel(k) for k in "RG")) / WHITE["I;16"]

@@ -1,8 +1,8 @@
-"""Points on the tiles of a surface: regular places, and lines."""
+"""Points on the tiles of a surface: regular places, and lines; and its tiles as polygons."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..core import arrays
 from ..core.array_types import Flags, Integers, Reals
 from ..core.value import Value, counted
+from ..mesh.edges import edge_keys, following_corners
 
 if TYPE_CHECKING:
     from .tiled_surface import TiledSurface
@@ -142,3 +143,120 @@ class Lines(SurfacePoints):
 
     def _facts(self):
         return [counted(len(self), "line"), f"{int(self.is_closed.sum())} closed"]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Cells(SurfacePoints):
+    """Result of `TiledSurface.cells`: a mesh of polygons, each a tile of the surface, or a part of a grid in it. It has
+    the surface's topology. All arrays are read-only.
+
+    The polygons follow the lines between tiles over the surface, with a vertex on each edge that these cross. Four of a
+    polygon's vertices are corners of the tile wherever there is no pole, branch or boundary; `simplified` leaves others
+    out, but a brick keeps the corners of those above and below it. The star of a pole, its triangles, is one polygon. A
+    tile that is not a disk with a simple outline is cut into a few: it may have a hole, or meet itself around a limb.
+
+    Where the tiling turns, a cone at a corner of tiles has as many of them around it as its angle has right ones, 3 or
+    5. Around a cone inside it a tile has 3 or 5 sides, or is folded; its UVs do not close up. Tiles of an even number
+    of columns and rows have their corners at all cones, and are quads.
+
+    corner_vertices, face_offsets : (#C,) and (#F + 1,) the polygons, as in `Surface`, oriented as its triangles
+    uv : (#C, 2) of each corner, continued across seams in a polygon
+    is_corner : (#C,) bool: a corner of a tile
+    tiles : (#F, 2) integers: the tile, in vectors of the lattice, as the UVs are
+    poles : (#F,) the pole of a star, or -1
+    is_quad : (#F,) bool: a whole tile, with its four corners and sides
+    is_whole : (#F,) bool: a tile as far as it lies on the surface, or a star; not one of several parts
+    triangles, barycentric : (#V,) and (#V, 3) where the vertices lie on the surface that was cut
+    tiled : the `TiledSurface`
+    """
+
+    corner_vertices: Integers
+    face_offsets: Integers
+    uv: Reals
+    is_corner: Flags
+    tiles: Integers
+    poles: Integers
+    is_quad: Flags
+    is_whole: Flags
+    triangles: Integers
+    barycentric: Reals
+    tiled: TiledSurface
+    _is_needed: Flags
+
+    def __len__(self) -> int:
+        return len(self.tiles)
+
+    def _facts(self):
+        parts = int((~self.is_whole).sum())
+        counts = counted(int(self.is_quad.sum()), "quad"), counted(int((self.poles >= 0).sum()), "pole")
+        return [counted(len(self), "polygon"), *counts, counted(parts, "part")]
+
+    @property
+    def vertices(self) -> Reals:
+        """(#V, 3) positions."""
+        return self.positions
+
+    def simplified(self) -> Cells:
+        """Leaves out the vertices between two others on the sides of polygons: a tile of four corners becomes a quad.
+        Keeps vertices by which sides with the same ends differ, and those of polygons that would have fewer than
+        three."""
+        kept = self._kept()
+        used = np.flatnonzero(kept)
+        number = np.cumsum(kept) - 1
+        is_kept = kept[self.corner_vertices]
+        counts = np.concatenate([[0], np.cumsum(is_kept)])
+        return replace(
+            self,
+            corner_vertices=arrays.frozen(number[self.corner_vertices[is_kept]].astype(np.int32)),
+            face_offsets=arrays.frozen(counts[self.face_offsets].astype(np.int32)),
+            uv=arrays.frozen(self.uv[is_kept]),
+            is_corner=arrays.frozen(self.is_corner[is_kept]),
+            triangles=arrays.frozen(self.triangles[used]),
+            barycentric=arrays.frozen(self.barycentric[used]),
+            _is_needed=arrays.frozen(np.ones(len(used), bool)),
+        )
+
+    def _kept(self):
+        """(#V,) bool. A side of the simplified mesh is known by its ends and by the first vertex that it passes."""
+        kept = self._is_needed.copy()
+        faces = np.repeat(np.arange(len(self)), np.diff(self.face_offsets))
+        while True:
+            is_kept = kept[self.corner_vertices]
+            few = np.bincount(faces[is_kept], minlength=len(self)) < 3
+            added = few[faces] & ~is_kept
+            added |= self._doubled(is_kept, faces)
+            if not added.any():
+                return kept
+            kept[self.corner_vertices[added]] = True
+
+    def _doubled(self, is_kept, faces):
+        """(#C,) bool: corners left out of sides whose ends other sides have, too."""
+        at = np.flatnonzero(is_kept)
+        if not len(at):
+            return np.zeros(len(is_kept), bool)
+        begin = np.searchsorted(at, self.face_offsets[:-1])
+        end = np.searchsorted(at, self.face_offsets[1:])
+        following = np.arange(1, len(at) + 1)
+        has_any = end > begin
+        following[end[has_any] - 1] = begin[has_any]
+        ends = self.corner_vertices[np.stack([at, at[following]], axis=1)].astype(np.int64)
+        keys = edge_keys(ends, len(self.triangles))
+        inner = self.corner_vertices[self._following[at]]  # the first vertex after, or the end itself
+        last = self.corner_vertices[self._before[at[following]]]
+        passed = edge_keys(np.stack([inner, last], axis=1), len(self.triangles))
+        order = np.lexsort([passed, keys])
+        other = (keys[order][1:] == keys[order][:-1]) & (passed[order][1:] != passed[order][:-1])
+        doubled = np.isin(keys, keys[order][1:][other])
+        side = np.searchsorted(at, np.arange(len(is_kept)), side="right") - 1
+        side = np.where(side < begin[faces], end[faces] - 1, side)  # before the first kept one of its polygon
+        return ~is_kept & doubled[side]
+
+    @cached_property
+    def _following(self):
+        return following_corners(self)
+
+    @cached_property
+    def _before(self):
+        before = np.empty(len(self.corner_vertices), np.int64)
+        before[self._following] = np.arange(len(before))
+        return before

@@ -1,4 +1,4 @@
-"""A surface raised by a picture of heights that repeats in its tiles: to be printed."""
+"""A surface raised by a picture of heights that repeats in its tiles, to be printed, and the vectors that move it."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from ..core import arrays
 from ..core.array_types import Integers, Reals
 from ..core.value import Value, counted, quoted
 from ..mesh.checks import check_options, real_number
+from ..mesh.hard_edges import is_hard
 from ..mesh.surface import Surface
 from ..quality.verdicts import TURNED
-from ..tiling.image_turns import ALIKE
-from ..tiling.tilings import MOST_PER_TILE
-from .relief_normals import normals
+from ..tiling.images import ALIKE
+from ..tiling.request import MOST_PER_TILE
 
 if TYPE_CHECKING:
     from .tiled_surface import TiledSurface
@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 PARTS = 64  # of the depth, among which a safe one is found
 LEAST_PART = 1 / PARTS
 MOST_TRIANGLES = 2**30
+LONGEST = 2.0  # of the vectors by which vertices are moved, for a height of 1: at sharper corners they are shorter
+SHARP = 29.0  # degrees, from which on an edge breaks the surface: those of a prism with twelve sides do
+REFLEX = 1.1 * np.pi
+PULL = 1e-6  # towards the mean normal, against 1 for all faces: decides where these leave a direction free
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -115,37 +119,21 @@ class Relief(Value):
 def joined(reliefs: Sequence[Relief]) -> Relief:
     """Joins several reliefs of one depth to one; those of `plain` may be among them."""
     first = np.cumsum([0, *(len(one.base) for one in reliefs)], dtype=np.int32)
-    arrays_of = {
-        name: arrays.frozen(np.concatenate([getattr(one, name) for one in reliefs]))
-        for name in ("base", "heights", "uv", "faces", "_offsets")
-    }
-    return Relief(
-        triangles=arrays.frozen(
-            np.concatenate([one.triangles + at for one, at in zip(reliefs, first)]).astype(np.int32)
-        ),
-        depth=max(one.depth for one in reliefs),
-        error=max(one.error for one in reliefs),
-        is_full=any(one.is_full for one in reliefs),
-        _threads=reliefs[0]._threads,
-        **arrays_of,
-    )
+    names = "base", "heights", "uv", "faces", "_offsets"
+    whole = {name: np.concatenate([getattr(one, name) for one in reliefs]) for name in names}
+    whole["triangles"] = np.concatenate([one.triangles + at for one, at in zip(reliefs, first)]).astype(np.int32)
+    depth, error = (max(getattr(one, name) for one in reliefs) for name in ("depth", "error"))
+    known = {"depth": depth, "error": error, "is_full": any(one.is_full for one in reliefs)}
+    return replace(reliefs[0], **{name: arrays.frozen(array) for name, array in whole.items()}, **known)
 
 
 def plain(surface: Surface) -> Relief:
     """The `Relief` of a surface without heights, which stays as it is."""
-    count = len(surface.triangles)
-    return Relief(
-        base=surface.vertices,
-        heights=np.zeros(len(surface.vertices)),
-        triangles=surface.triangles,
-        uv=np.zeros((3 * count, 2)),
-        faces=surface.face_index[surface.triangle_faces],
-        depth=0.0,
-        error=0.0,
-        is_full=False,
-        _offsets=np.zeros_like(surface.vertices),
-        _threads=check_options("auto", None),
-    )
+    shapes = {"heights": len(surface.vertices), "uv": (surface.triangles.size, 2), "_offsets": surface.vertices.shape}
+    zeros = {name: arrays.frozen(np.zeros(shape)) for name, shape in shapes.items()}
+    faces = surface.face_index[surface.triangle_faces]
+    lies = {"base": surface.vertices, "triangles": surface.triangles, "faces": arrays.frozen(faces)}
+    return Relief(**lies, **zeros, depth=0.0, error=0.0, is_full=False, _threads=check_options("auto", None))
 
 
 def raised(
@@ -172,18 +160,10 @@ def raised(
         progress=progress,
     )
     tiles = found.tiles.reshape(-1, 2) / repeats
-    return Relief(
-        base=found.positions,
-        heights=found.heights,
-        triangles=found.triangles,
-        uv=arrays.frozen(tiles @ tiled.lattice.T),
-        faces=arrays.frozen(surface.face_index[surface.triangle_faces[found.parents]]),
-        depth=depth,
-        error=found.error,
-        is_full=found.is_full,
-        _offsets=found.offsets,
-        _threads=tiled._threads,
-    )
+    uv, faces = tiles @ tiled.lattice.T, surface.face_index[surface.triangle_faces[found.parents]]
+    same = {name: getattr(found, name) for name in ("heights", "triangles", "error", "is_full")}
+    own = {"base": found.positions, "uv": arrays.frozen(uv), "faces": arrays.frozen(faces), "_offsets": found.offsets}
+    return Relief(**own, **same, depth=depth, _threads=tiled._threads)
 
 
 def check_choices(repeats, level, tolerance, most_triangles):
@@ -269,3 +249,80 @@ def _shares(tiled, width):
     side = np.sqrt(surface.area / tiles) if tiles > 0 else np.inf
     part = np.clip(distance / (width * side), 0, 1)
     return part * part * (3 - 2 * part)
+
+
+def normals(surface, is_raised=True):
+    """((#V, 3), (3 #T, 3), (3 #T,) bool): vectors by which vertices are moved; the same of each corner of the triangles
+    for the smooth part of the surface around it alone; whether that part has more than half of the angle.
+
+    Moved by these, faces stay parallel to themselves. Hollow edges part nothing: their two sides come nearer to each
+    other, over all of their faces. So do those of convex edges where the surface is not only raised.
+
+    On a smooth part it is m / m^2, m the mean of the normals around by angles. Where sharp edges meet, it is the vector
+    whose components along the normals of all parts are theirs, by least squares.
+    """
+    fans = _native.corner_fans(surface._native, is_hard(surface, SHARP) & _is_convex(surface))
+    vertices, count = surface.triangles.ravel(), len(surface.vertices)
+    corner, angle = corner_normals(surface)
+    of_fans, weight = _mean(corner, angle, fans, len(fans))
+    moved, _ = _mean(corner, angle, vertices, count)
+    first = np.unique(fans)
+    is_sharp = np.bincount(vertices[first], minlength=count) > 1
+    first = first[is_sharp[vertices[first]]]
+    if len(first):
+        moved[is_sharp] = _all_parallel(of_fans[first], weight[first], vertices[first], moved)[is_sharp]
+    return moved, of_fans[fans] if is_raised else moved[vertices], weight[fans] > REFLEX
+
+
+def _is_convex(surface):
+    """(#E,) whether the triangles of an edge lie below each other's planes."""
+    triangles, points = surface.triangles, surface.vertices
+    edges = surface._native.triangle_edges.ravel()
+    order = np.argsort(edges, kind="stable")
+    both = np.flatnonzero(edges[order[1:]] == edges[order[:-1]])
+    one, other = order[both], order[both + 1]
+    a, b, c = (points[triangles[one // 3, k]] for k in range(3))
+    beyond = points[triangles[other // 3, (other + 2) % 3]]  # opposite to the edge
+    result = np.zeros(len(surface._native.edges), bool)
+    result[edges[one]] = np.einsum("ij,ij->i", np.cross(b - a, c - a), beyond - a) < 0
+    return result
+
+
+def corner_normals(surface):
+    """((#T, 3) unit normals of the triangles, 0 where they have no area; (#T, 3) their angles)."""
+    corners = surface.vertices[surface.triangles]
+    after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+    cross = np.cross(after, before)
+    angle = np.arctan2(np.linalg.norm(cross, axis=2), np.einsum("tik,tik->ti", after, before))
+    normal = cross[:, 0]
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    return np.divide(normal, length, out=np.zeros_like(normal), where=length > 0), np.where(length > 0, angle, 0)
+
+
+def _mean(normal, angle, labels, count):
+    """((count, 3) m / m^2 of the triangles at each label, no longer than `LONGEST`; (count,) sums of their angles).
+
+    labels : (3 #T,) of the corners
+    """
+    weighted = (angle[:, :, None] * normal[:, None]).reshape(-1, 3)
+    total = np.bincount(labels, angle.ravel(), count)
+    sums = np.stack([np.bincount(labels, weighted[:, k], count) for k in range(3)], axis=1)
+    mean = np.divide(sums, total[:, None], out=np.zeros_like(sums), where=total[:, None] > 0)
+    size = np.linalg.norm(mean, axis=1, keepdims=True)
+    unit = np.divide(mean, size, out=np.zeros_like(mean), where=size > 0)
+    return unit / np.maximum(size, 1 / LONGEST), total
+
+
+def _all_parallel(of_parts, weight, vertices, mean):
+    """(#V, 3) x with x . n = n . n for the vectors n of all parts at a vertex, by least squares with their weights."""
+    count = len(mean)
+    total = np.maximum(np.bincount(vertices, weight, count), np.finfo(float).tiny)
+    weight = weight / total[vertices]
+    size = np.maximum(np.linalg.norm(of_parts, axis=1, keepdims=True), np.finfo(float).tiny)
+    unit = of_parts / size
+    squares = weight[:, None, None] * unit[:, :, None] * unit[:, None]
+    matrix = np.stack([np.bincount(vertices, each, count) for each in squares.reshape(-1, 9).T], axis=1)
+    wanted = np.stack([np.bincount(vertices, each, count) for each in (weight[:, None] * of_parts).T], axis=1)
+    found = np.linalg.solve(matrix.reshape(-1, 3, 3) + PULL * np.eye(3), (wanted + PULL * mean)[:, :, None])[:, :, 0]
+    length = np.linalg.norm(found, axis=1, keepdims=True)
+    return found * np.minimum(1, LONGEST / np.maximum(length, np.finfo(float).tiny))

@@ -15,12 +15,10 @@ from .._native import TopologyError
 from ..core import arrays
 from ..core.array_types import Integers, Progress, Reals
 from ..core.value import Value, counted, quoted
-from ..mesh.checks import check_options, check_type
+from ..mesh.checks import check_options, check_type, checked_uv
 from ..mesh.surface import Surface
-from ..tiling.request import TURNS
-from ..tiling.tilings import MOST_PER_TILE, generators
-from .cells import Cells
-from .places import Lines, Places
+from ..tiling.request import MOST_PER_TILE, checked_turns, generators
+from .places import Cells, Lines, Places
 from .relief import Relief, raised
 from .turned_surface import Curves, check_grid, directions, joined, opened
 
@@ -58,16 +56,12 @@ class TiledSurface(Value):
         if surface.vertices is None:
             raise TopologyError("tiles need a surface with positions; this one has edge lengths only")
         self._threads = check_options("auto", threads)
-        given, count = arrays.numbers(uv, "uv"), len(surface.corner_vertices)
-        if given.shape != (count, 2):
-            raise ValueError(f"uv has the shape {given.shape}; ({count}, 2) is needed")
+        given = checked_uv(uv, surface)
         self.surface: Surface = surface
         self.uv: Reals = arrays.frozen(given.copy()) if given.flags.writeable else given
         a, b = generators(lattice)
         self.lattice: Reals = arrays.frozen(np.array([[a.real, b.real], [a.imag, b.imag]]))
-        if turns not in TURNS:
-            raise ValueError(f"turns is {quoted(turns)}; one of {', '.join(map(str, TURNS))} is needed")
-        self.turns: int = turns
+        self.turns: int = checked_turns(turns)
         poles = self._coordinates().poles()
         self.poles: Integers = arrays.frozen(self._opened.vertices[poles]) if self._opened else poles
 
@@ -116,22 +110,15 @@ class TiledSurface(Value):
         shift = rows // 2 if shifted_rows else 0
         coordinates = self._coordinates(((columns, -shift), (0, rows)), offset / (columns, rows))
         found = _native.places(self._native, coordinates, threads=self._threads, progress=progress)
-        triangles, barycentric, numbers = found.triangles, found.barycentric, found.numbers
+        at, numbers = (found.triangles, found.barycentric), found.numbers
         if self._opened:
-            kept = self._opened.first_ones(triangles, barycentric)
-            triangles, barycentric, numbers = (arrays.frozen(each[kept]) for each in (triangles, barycentric, numbers))
+            kept = self._opened.first_ones(*at)
+            *at, numbers = (arrays.frozen(each[kept]) for each in (*at, numbers))
         row = (numbers[:, 1] + offset[1]) / rows
         column = (numbers[:, 0] + offset[0] + (numbers[:, 1] / 2 if shifted_rows else 0)) / columns
         inside = np.stack([column, row], axis=1)
-        return Places(
-            triangles=triangles,
-            barycentric=barycentric,
-            tiles=arrays.frozen(np.floor(inside).astype(np.int64)),
-            uv=arrays.frozen(inside @ self.lattice.T),
-            flipped=found.flipped,
-            tiled=self,
-            _numbers=numbers,
-        )
+        tiles, uv = np.floor(inside).astype(np.int64), inside @ self.lattice.T
+        return Places(*at, arrays.frozen(tiles), arrays.frozen(uv), found.flipped, self, numbers)
 
     def lines(self, direction: str | Sequence[int] = "u", per_tile: int = 1, progress: Progress | None = None) -> Lines:
         """The lines between the tiles in one direction, as curves on the surface: see `Lines`.
@@ -184,20 +171,13 @@ class TiledSurface(Value):
         is_corner = is_line.all(axis=1)
         is_tile = np.logical_and.reduceat(is_line.any(axis=1), first) & is_whole & (found.poles < 0)
         is_tile &= found.turns == 0
-        return Cells(
-            corner_vertices=found.corner_vertices,
-            face_offsets=found.offsets,
-            uv=arrays.frozen((points / (parts * columns, rows) + lies) @ self.lattice.T),
-            is_corner=arrays.frozen(is_corner),
-            tiles=arrays.frozen((found.tiles + (0 if any(lies) else parts // 2, 0)) // (parts * columns, rows)),
-            poles=found.poles,
-            is_quad=arrays.frozen(is_tile & (np.add.reduceat(is_corner.astype(int), first) == 4)),
-            is_whole=arrays.frozen(is_whole),
-            triangles=found.triangles,
-            barycentric=found.barycentric,
-            tiled=self,
-            _is_needed=arrays.frozen(found.is_needed.astype(bool)),
-        )
+        made = {"is_corner": is_corner, "is_whole": is_whole, "_is_needed": found.is_needed.astype(bool)}
+        made["is_quad"] = is_tile & (np.add.reduceat(is_corner.astype(int), first) == 4)
+        made["tiles"] = (found.tiles + (0 if any(lies) else parts // 2, 0)) // (parts * columns, rows)
+        made["uv"] = (points / (parts * columns, rows) + lies) @ self.lattice.T
+        made = {name: arrays.frozen(values) for name, values in made.items()}
+        same = {name: getattr(found, name) for name in ("corner_vertices", "poles", "triangles", "barycentric")}
+        return Cells(**made, **same, face_offsets=found.offsets, tiled=self)
 
     def relief(
         self,
@@ -231,8 +211,7 @@ class TiledSurface(Value):
         Cancelled. Cost: n log n in the triangles that are made.
         """
         self._refuse_sixths("a relief")
-        count = _count(repeats, "repeats")
-        return raised(self, heights, depth, count, level, tolerance, most_triangles, pole_fade, progress)
+        return raised(self, heights, depth, repeats, level, tolerance, most_triangles, pole_fade, progress)
 
     def _check_cells(self, per_tile, shifted_rows):
         self._refuse_sixths("cells")

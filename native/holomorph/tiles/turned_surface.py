@@ -71,11 +71,16 @@ class Opened:
     def first_ones(self, triangles: Integers, barycentric: Reals) -> Flags:
         """(n,) which points to keep so that each of the surface is there once."""
         key, share = self.on_cut(triangles, barycentric)
-        order = np.lexsort([share, key])
-        same = (key[order[1:]] == key[order[:-1]]) & (np.diff(share[order]) < NEAR) & (key[order[1:]] >= 0)
+        order, same = _at_one_place(key, share)
         kept = np.ones(len(key), bool)
         kept[order[1:][same]] = False
         return kept
+
+
+def _at_one_place(key, share):
+    """(the points in the order of their places on the cut, whether each is where the one before it is)."""
+    order = np.lexsort([share, key])
+    return order, (key[order[1:]] == key[order[:-1]]) & (np.diff(share[order]) < NEAR) & (key[order[1:]] >= 0)
 
 
 def opened(surface: Surface, uv: Reals, turns: int, lattice: Reals) -> Opened:
@@ -154,8 +159,7 @@ def _partners(opened, triangles, barycentric, is_closed):
     """(2 #P,) the end of a curve with which each end is joined, or -1."""
     key, share = opened.on_cut(triangles, barycentric)
     key = np.where(is_closed | (key >= len(opened.is_cut)), -1, key)
-    order = np.lexsort([share, key])
-    same = (key[order[1:]] == key[order[:-1]]) & (np.diff(share[order]) < NEAR) & (key[order[1:]] >= 0)
+    order, same = _at_one_place(key, share)
     same[1:] &= ~same[:-1]
     first = np.flatnonzero(same)
     result = np.full(len(key), -1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import numbers
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
@@ -19,9 +20,13 @@ from ..mesh.checks import check_list, check_name, checked_evenness, only_compone
 from ..mesh.edges import boundary_edges
 from ..mesh.origin import edges_on_part, on_part
 from ..mesh.surface import Surface
-from .image_turns import image_turns
-from .tilings import BOUNDARIES, MOST_POLES, UPRIGHT, Poles, generators
+from .images import image_turns
 
+LATTICES = {"square": (1, 1j), "brick": (1, 0.5 + 1j), "hex": (1, 0.5 + 0.5j * math.sqrt(3))}
+BOUNDARIES = ("automatic", "straight", "free")
+MOST_POLES, MOST_PER_TILE = 1000, 1000
+Poles: TypeAlias = str | int | Sequence[int] | Integers  # "auto", a number, or vertices
+UPRIGHT = "upright"
 MAIN_MAPS = ("automatic", "seamless", "untiled", "balanced")
 ISLANDS = "islands"  # between chosen cuts: the main map of those that choose them
 EVENNESS = 0.5  # what suits textures: squares hardly differ in size, and their shear is not seen
@@ -35,7 +40,6 @@ WHOLE = 1e-6  # part of a turn: less is rounding
 MOST_PARTS = 1200  # of a turn around one cone: all that any use has, and no sum of them overflows
 LINES = ("none", "whole", "free", "mirror")  # along edges, and the one between two halves that are alike
 AUTOMATIC = "automatic"  # the lines that cost little
-FITTING = {"poles": ("auto", 0), "turn": (0.0,), "boundary": ("automatic",), "allowed": (), "moves": ({}, ())}
 Moves: TypeAlias = Mapping[int, int] | Sequence[tuple[int, int]]
 Size: TypeAlias = tuple[float, int, float | None, tuple[float, float] | None, float]  # values of a `_native.SizePolicy`
 
@@ -91,14 +95,11 @@ class Request:
         """The same of one tiling over this area. Raises ValueError for choices of which it has one or the other; of a
         map the core leaves some out."""
         checked_lines(self.lines, self.turns)
-        check_chosen(self.marked, self.cones)
         if self.cones is not None and (self.turns == 1 or self.lines != "none"):
             raise ValueError("cones can be chosen for tilings that turn by 2, 4 or 6 and have no lines")
-        fitting = FITTING | {"lattice": ("square", LATTICE.get(self.turns))}
-        for name, known in fitting.items() if self.turns != 1 else ():
-            given = getattr(self, name)
-            if isinstance(given, np.ndarray) or given not in (*known, None):
-                raise ValueError(f"{name} is {quoted(given)}; a tiling that turns has no such choice: take turns=1")
+        lattice = self.lattice if isinstance(self.lattice, str) else None
+        if self.turns != 1 and lattice not in ("square", LATTICE.get(self.turns)):
+            raise ValueError(f"lattice is {quoted(self.lattice)}; a tiling that turns has no such choice: take turns=1")
         return self if self.density is None else replace(self, tiles=self._density * area, density=None)
 
     def size_of(self, parts: Sequence[Surface]) -> Size:
@@ -279,6 +280,20 @@ def _heading(direction):
     return False, vector.tolist()
 
 
+def generators(lattice):
+    """The two generators of a lattice as complex numbers. @throws ValueError"""
+    if isinstance(lattice, str):
+        if lattice not in LATTICES:
+            raise ValueError(f"lattice is {quoted(lattice)}; one of {', '.join(LATTICES)} or a 2 x 2 matrix is needed")
+        return tuple(complex(z) for z in LATTICES[lattice])
+    matrix = arrays.numbers(lattice, "lattice")
+    if matrix.shape != (2, 2) or not np.isfinite(matrix).all():
+        raise ValueError(f"lattice has the shape {matrix.shape}; a finite 2 x 2 matrix is needed")
+    if abs(np.linalg.det(matrix)) <= 1e-9 * np.abs(matrix).max() ** 2:
+        raise ValueError("lattice is singular: its columns, the translations of the texture, must be independent")
+    return complex(*matrix[:, 0]), complex(*matrix[:, 1])
+
+
 def missing_turns(surface: Surface, component: Surface, cones: Mapping[int, float], turns: int) -> Integers:
     """(#V,) k-th turns that are missing around the vertices of the component."""
     vertices, _ = own_vertices(surface, component, list(cones), "cone")
@@ -287,10 +302,8 @@ def missing_turns(surface: Surface, component: Surface, cones: Mapping[int, floa
     off = np.abs(np.multiply(angles, turns) - parts)
     wrong = np.flatnonzero((off > WHOLE) | (parts < 1) | (parts > MOST_PARTS))
     if len(wrong):
-        wanted = f"{turns}, whole parts of a turn, up to {MOST_PARTS // turns}"
-        raise ValueError(
-            f"the angle around a cone is {angles[wrong[0]]:.6g} turns; multiples of 1/{wanted}, are needed"
-        )
+        wanted = f"multiples of 1/{turns}, whole parts of a turn, up to {MOST_PARTS // turns}, are needed"
+        raise ValueError(f"the angle around a cone is {angles[wrong[0]]:.6g} turns; {wanted}")
     missing = np.zeros(len(component.vertices), np.int64)
     missing[vertices] = turns - parts.astype(np.int64)
     edge = np.flatnonzero(np.isin(vertices, boundary_edges(component)))

@@ -37,12 +37,6 @@ py::array as_array(const std::vector<flat::Extent>& rows) {
   return read_only(std::move(result));
 }
 
-// ((n, 2) lower left corners, (w, h) of the whole)
-std::pair<py::array, std::pair<double, double>> on_shelves(const Contiguous<double>& sizes, double width, double gap) {
-  const flat::Shelves made = flat::on_shelves(rows<double, 2>(sizes), width, gap);
-  return {as_array(made.corners), {made.whole[0], made.whole[1]}};
-}
-
 // ((n, 2) lower left corners, side)
 std::pair<py::array, double> pack(const Contiguous<double>& sizes, double margin) {
   const flat::Packing made = flat::pack(rows<double, 2>(sizes), margin);
@@ -144,7 +138,6 @@ void bind_islands(py::module_& m) {
   m.def("parted", &parted, "surface"_a, "uv"_a, "progress"_a);
   m.def("cut_apart", &cut_apart, "surface"_a, "names"_a);
   m.def("cut_in_hiding", &cut_in_hiding, "surface"_a, "up"_a, py::kw_only(), "threads"_a, "progress"_a);
-  m.def("on_shelves", &on_shelves, "sizes"_a, "width"_a, "gap"_a);
   m.def("pack", &pack, "sizes"_a, "margin"_a);
   m.def("fitting_margin", &flat::fitting_margin, "margin"_a, "count"_a);
 }

@@ -28,17 +28,6 @@ std::pair<py::array, py::array> zeros(const mesh::Surface& surface, const Contig
   return zeros_by_columns(uv::zeros(surface, corners(uv), poles));
 }
 
-// The facade has checked shapes and types; `rows` is empty where row c is that of corner c.
-void place(const Contiguous<double>& uv, Complex factor, Complex origin, Complex target,
-           const py::array_t<int, py::array::c_style>& rows, py::array_t<double, py::array::c_style> placed,
-           int threads) {
-  double* const values = placed.mutable_data();
-  const int* const at = rows.size() == 0 ? nullptr : rows.data();
-  const py::gil_scoped_release unlocked;
-  Workers workers(threads);
-  uv::place(corners(uv), {factor, origin, target}, at, values, workers);
-}
-
 structure::HarmonicMap harmonic_map(const mesh::Surface& surface, const Contiguous<double>& corner_values,
                                     const std::string& solver, int threads, const py::object& progress_function) {
   using Rows = forms::RowMajorMatrix;
@@ -101,8 +90,6 @@ void bind_uv_maps(py::module_& m) {
         return std::tuple(found.low, found.high, found.area);
       },
       py::arg("surface"), py::arg("uv"), py::arg("rotation"), py::arg("threads"));
-  m.def("place", &place, py::arg("uv"), py::arg("factor"), py::arg("origin"), py::arg("target"), py::arg("rows"),
-        py::arg("placed"), py::arg("threads"));
   m.def("harmonic_map", &harmonic_map, py::arg("surface"), py::arg("corner_values"), py::arg("solver"),
         py::arg("threads"), py::arg("progress"));
   m.def("averaged_star", &averaged_star, py::arg("surface"), py::arg("form"));

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from families import torus
 from holomorph import Cancelled, Surface, TiledSurface, _native, automatic_map, automatic_maps, island_map
-from holomorph.quality.overlap import overlapping_part
+from holomorph.quality.appearance import overlapping_part
 from holomorph.tiling.request import part_of
 from tiled_grids import flat_square
 

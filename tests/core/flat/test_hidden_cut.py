@@ -4,8 +4,8 @@ import families
 import numpy as np
 import pytest
 from holomorph import _native, automatic_map
-from holomorph.mesh.cut_open import cut_open
 from holomorph.mesh.edges import edge_keys
+from holomorph.mesh.surgery import cut_open
 from limbed import limbs, open_limbs, spikes
 from solved import surface_of
 

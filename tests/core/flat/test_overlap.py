@@ -4,7 +4,7 @@ import families
 import numpy as np
 import pytest
 from holomorph import Cancelled, Surface, conformal_structure, free_boundary_map
-from holomorph.quality.overlap import overlapping_part
+from holomorph.quality.appearance import overlapping_part
 from holomorph.quality.verdicts import baking
 from island_checks import cut_along
 from solved import surface_of

@@ -4,7 +4,6 @@ import families
 import numpy as np
 import pytest
 from holomorph import _native, island_map
-from holomorph.mesh.hard_edges import breaks
 from solved import surface_of
 
 SMOOTH = {
@@ -20,6 +19,10 @@ SMOOTH = {
 
 def bends(surface):
     return _native.bends(surface._native)
+
+
+def breaks(surface):
+    return _native.breaks(surface._native)
 
 
 def rounded_box(inner, scale=1.0):

@@ -7,8 +7,8 @@ import regular_maps
 from equivalence import distance_or_mirrored, gram_of, random_symplectic, symplectic_unit
 from flint import acb
 from holomorph import _native, automorphisms, conformal_structure, siegel_reduction
-from holomorph.moduli.known_periods import period_lattice
-from holomorph.moduli.siegel import moved
+from holomorph.moduli.equivalence import period_lattice
+from holomorph.moduli.symplectic import moved
 from known_matrices import BOLZA, LAWSON
 from shared_data import reference_surface
 from solved import surface_of

@@ -18,7 +18,7 @@ from holomorph import (
     conformally_equivalent,
 )
 from holomorph.__main__ import main
-from holomorph.forms.period_matrix import PeriodMatrix
+from holomorph.forms.certificate import PeriodMatrix
 from holomorph.moduli.equivalence import AGREEMENT, NEAR, VERDICTS
 from known_matrices import BOLZA, BOLZA_AGAIN, LAWSON, SQUARES
 from mesh_files import obj

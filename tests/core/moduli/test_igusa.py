@@ -10,8 +10,7 @@ import sextics
 from curve_periods import curve_period_matrix
 from equivalence import random_symplectic
 from holomorph import TopologyError, conformal_structure, igusa_invariants
-from holomorph.moduli.igusa import invariants
-from holomorph.moduli.siegel import moved, siegel_reduction
+from holomorph.moduli.symplectic import invariants, moved, siegel_reduction
 from known_matrices import BOLZA, LAWSON
 from shared_data import complex_matrix, reference_values
 from solved import surface_of

@@ -5,8 +5,8 @@ import pickle
 import numpy as np
 import pytest
 from holomorph import conformally_equivalent
-from holomorph.forms.period_matrix import PeriodMatrix, distance_within
-from holomorph.moduli.siegel import siegel_reduction
+from holomorph.forms.certificate import PeriodMatrix, distance_within
+from holomorph.moduli.symplectic import siegel_reduction
 from known_matrices import BOLZA
 
 

@@ -5,7 +5,7 @@ import pytest
 from curve_periods import period_matrix_of
 from curves import NATURAL, theta_sizes, thomae_sizes
 from holomorph import siegel_reduction
-from holomorph.moduli.igusa import even_theta_constants
+from holomorph.moduli.symplectic import even_theta_constants
 
 
 @pytest.mark.parametrize("name", NATURAL)

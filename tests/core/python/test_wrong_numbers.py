@@ -7,7 +7,7 @@ import families
 import holomorph
 import numpy as np
 import pytest
-from holomorph import ProgressiveMesh, Surface, TiledSurface, Tiler, arrangement, conformal_structure, layout
+from holomorph import ProgressiveMesh, Surface, TiledSurface, Tiler, arrangement, conformal_structure
 from solved import surface_of
 
 HUGE = 10**400  # more than a float holds
@@ -120,15 +120,12 @@ def calls():
         "image_turns": (holomorph.image_turns, {"pixels": np.random.default_rng(1).random((32, 32))}),
         "island_map": (holomorph.island_map, {"surface": disk}),
         "log_map": (holomorph.log_map, {"surface": surface, "poles": [0, 20]}),
-        "place": (holomorph.place, {"uv": uv, "factor": 1, "origin": 0, "target": 0, "placed": np.empty(uv.shape)}),
         "place_poles": (holomorph.place_poles, {"surface": surface}),
         "punch_holes": (holomorph.punch_holes, {"surface": surface, "vertices": [0]}),
         "rectangle_map": (holomorph.rectangle_map, {"surface": disk}),
         "siegel_reduction": (holomorph.siegel_reduction, {"period_matrix": [[1j]]}),
         "symmetrised": (holomorph.symmetrised, {"double": holomorph.double_cover(disk), "forms": np.zeros(1)}),
         "verdict": (holomorph.verdict, {"quality": quality}),
-        "layout.rows": (layout.rows, {"sizes": np.ones((2, 2)), "width": 2.0, "gap": 0.0}),
-        "layout.pack": (layout.pack, {"sizes": np.ones((2, 2)), "margin": 0.1}),
         "arrangement.Arrangement": (arranged_so, {}),
         "arrangement.arranged_form": (arrangement.arranged_form, form),
         "arrangement.arranged": (arrangement.arranged, {"maps": [made], "corners": len(made.uv)}),

@@ -3,7 +3,7 @@
 import holomorph
 import numpy as np
 import pytest
-from holomorph.forms.truncated import TruncatedStructure
+from holomorph.forms.log_map import TruncatedStructure
 
 SAME = 1e-9  # two solves, or rounding
 

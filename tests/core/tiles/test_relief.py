@@ -5,8 +5,7 @@ import numpy as np
 import pytest
 from heights import DEPTH, dots
 from holomorph import Surface, TiledSurface, automatic_map
-from holomorph.tiles.relief import joined, plain, volume
-from holomorph.tiles.relief_normals import normals
+from holomorph.tiles.relief import joined, normals, plain, volume
 from solved import surface_of
 from tiled_families import CASES, MORE, tiled, tiling
 from tiled_grids import flat_square, grid_torus

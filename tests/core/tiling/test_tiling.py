@@ -12,7 +12,7 @@ everywhere = pytest.mark.parametrize("name", CASES)
 
 
 def basis(options):
-    a, b = holomorph.tiling.tilings.LATTICES[options.get("lattice", "square")]
+    a, b = holomorph.tiling.request.LATTICES[options.get("lattice", "square")]
     return np.array([[a.real, complex(b).real], [complex(a).imag, complex(b).imag]])
 
 

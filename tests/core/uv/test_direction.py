@@ -8,8 +8,7 @@ import pytest
 from holomorph import Surface, _native, automatic_map, automatic_structure, island_map
 from holomorph.maps.map import Map
 from holomorph.quality.appearance import ON_ITS_HEAD, SIDEWAYS, of_direction
-from holomorph.quality.direction import Direction
-from holomorph.quality.quality import Quality
+from holomorph.quality.quality import Direction, Quality
 from plane_meshes import grid
 from solved import surface_of
 

@@ -237,7 +237,7 @@ def test_distortion_of_a_smooth_torus_falls_like_the_step():
     assert (order > 0.9).all(), order
 
 
-# ---- frames and places ---------------------------------------------------------------------------
+# ---- frames --------------------------------------------------------------------------------------
 
 
 @everywhere
@@ -254,37 +254,9 @@ def test_frame(name, rotation):
     assert abs(frame.area - areas.sum()) < 1e-12 * areas.sum()
 
 
-def test_placed_map():
-    uv = np.random.default_rng(3).normal(size=(10_000, 2))
-    rows = np.random.default_rng(4).permutation(12_000)[:10_000]
-    factor, origin, target = 0.3 - 2j, 5 + 1j, 0.5 + 0.5j
-    placed = np.full((12_000, 2), 7.0)
-    holomorph.place(uv, factor, origin, target, placed, rows)
-    expected = np.full(12_000, 7 + 7j)
-    expected[rows] = factor * (uv @ [1, 1j] - origin) + target
-    assert np.abs(placed @ [1, 1j] - expected).max() < 1e-14 * np.abs(expected).max()
-    own = np.zeros((10_000, 2))
-    holomorph.place(uv, factor, origin, target, own)
-    assert (own == placed[rows]).all()
-
-
-def test_wrong_places():
-    uv, placed = np.zeros((3, 2)), np.zeros((4, 2))
-    readable = placed.copy()
-    readable.setflags(write=False)
-    for arguments, message in [
-        ((uv, 1, 0, 0, placed), "uv has the shape"),
-        ((uv, 1, 0, 0, placed, [0, 1]), "uv has the shape"),
-        ((uv, 1, 0, 0, placed, [0, 1, 4]), "outside of 0 to 3"),
-        ((uv, 1, 0, 0, placed, [0, -1, 2]), "outside of 0 to 3"),
-        ((uv, 1, 0, 0, placed.astype(np.float32)), "float64"),
-        ((uv, 1, 0, 0, readable), "writable"),
-        ((uv, 1, 0, 0, placed.ravel()), "placed has the shape"),
-    ]:
-        with pytest.raises(ValueError, match=message):
-            holomorph.place(*arguments)
+def test_wrong_frame():
     with pytest.raises(ValueError, match="uv has the shape"):
-        holomorph.frame(solved("even torus").surface, uv)
+        holomorph.frame(solved("even torus").surface, np.zeros((3, 2)))
 
 
 # ---- balance -------------------------------------------------------------------------------------

@@ -12,7 +12,7 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kSteep = 0.35;     // least sine between the normal and the vertical, as in quality/direction.py
+constexpr double kSteep = 0.35;     // least sine between the normal and the vertical, as in quality/quality.py
 constexpr double kOnItsHead = 0.5;  // beside 1 for what lies on its side, as in quality/appearance.py
 // The price of an edge that turns and is as long as the root of the area, where it is smooth. It falls to the part
 // where the edge bends by the angle. Little, as no texture that the map is made for shows where it turns.
