@@ -37,10 +37,9 @@ class Kept(dict):
 
     def get(self, key):
         """The value of a key; None where it is not kept."""
-        value = self.pop(key, None)
-        if value is not None:
-            self[key] = value
-        return value
+        if key in self:
+            self[key] = self.pop(key)  # in one line: an error between two would lose it
+        return super().get(key)
 
     def keep(self, key, value):
         """Keeps the value, and returns it."""
