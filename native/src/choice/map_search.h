@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/errors.h"
-#include "choice/budget.h"
 #include "choice/map.h"
 #include "choice/piece_search.h"
 #include "choice/request.h"

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "choice/budget.h"
 #include "choice/pieces.h"
 #include "choice/request.h"
 #include "choice/size.h"

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "choice/budget.h"
 #include "choice/map.h"
 #include "choice/request.h"
 #include "choice/size.h"

@@ -1,4 +1,4 @@
-#include "choice/budget.h"
+#include "choice/request.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "choice/any_structure.h"
 #include "choice/automatic_structure.h"
-#include "choice/budget.h"
+#include "choice/request.h"
 #include "choice/tiling_search.h"
 #include "choice/turned_parts.h"
 
