@@ -35,6 +35,7 @@ DIGITS = "native:DoubleDouble*"
 SLIVERS = CORE + "mesh/test_slivers.py"
 WILD = CORE + "mesh/test_wild_vertices.py"
 TURNED = CORE + "tiling/test_turned_tilings.py"
+CARRIED = CORE + "tiling/test_carried_maps.py"
 LINES = CORE + "tiling/test_turned_lines.py"
 MIRRORED = CORE + "tiling/test_mirrored.py"
 ASKED = CORE + "tiling/test_asked_turns.py"
@@ -282,7 +283,11 @@ MUTATIONS = (
         ("unknowns-turn", "2 * b + 1, weight * turn.imag()", "2 * b + 1, -weight * turn.imag()", TURNED),
     )
     | of(ROOM + "uv/strain_energy.cpp", ("thin-triangles", "kThinArea = 1e-6", "kThinArea = 1e-2", THIN))
-    | of(ROOM + "uv/turned_functions.cpp", ("cover-signs", "part == 0 ? -im : im", "im", "native:TurnedSolver*"))
+    | of(
+        ROOM + "tiling/cones/carried_map.cpp",
+        ("carried-cones", "cone.side = star(to);", "", CARRIED),
+        ("carried-beside", "beside.side = CornerTable::previous(left);", "{}", CARRIED),
+    )
     | of(
         ROOM + "choice/tiling_search.cpp",
         ("lines-asked", "(are_edged && !edges", "(false && !edges", ASKED),

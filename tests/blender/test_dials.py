@@ -202,13 +202,18 @@ def stars(obj):
 
 
 def dragged(obj, neighbour=0, **options):
-    """The neighbour, this one of those apart from other points, to which the first point of a map is dragged."""
+    """The neighbour, this one of those apart from other points, to which a point of a map is dragged."""
     bpy.ops.uv.holomorphic_maps(**options)
     (tiling,) = [part["tiling"] for part in stored_report(obj)["components"] if "tiling" in part]
-    (first, *others), near = tiling["cones"] or tiling["poles"], stars(obj)
-    taken = set().union(*(near[vertex] for vertex in others))
-    place = sorted(vertex for vertex in near[first] - {first} if near[vertex].isdisjoint(taken))[neighbour]
-    assert bpy.ops.uv.holomorphic_drag_poles(moves=f"0:{place}") == {"FINISHED"}
+    found, near = tiling["cones"] or tiling["poles"], stars(obj)
+
+    def free(own):
+        taken = set().union(*(near[vertex] for vertex in found if vertex != own))
+        return sorted(vertex for vertex in near[own] - {own} if near[vertex].isdisjoint(taken))
+
+    number = next(number for number, own in enumerate(found) if len(free(own)) > abs(neighbour))
+    place = free(found[number])[neighbour]
+    assert bpy.ops.uv.holomorphic_drag_poles(moves=f"{number}:{place}") == {"FINISHED"}
     return place
 
 

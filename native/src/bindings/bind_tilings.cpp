@@ -105,7 +105,7 @@ using MutableSeamless = std::shared_ptr<SeamlessMap>;
 MutableTiler tiler(const std::shared_ptr<choice::Part>& part, const TileOptions& options, bool evened,
                    const std::string& solver, const Tiler* like, int threads, const py::object& progress) {
   return unlocked(threads, progress, [&](Execution& execution) {
-    return std::make_shared<Tiler>(part, options.poles, options.boundary, evened, solver, like, execution);
+    return std::make_shared<Tiler>(part, options.poles, options.boundary, evened, solver, nullptr, like, execution);
   });
 }
 

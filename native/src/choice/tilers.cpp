@@ -56,11 +56,12 @@ void check_added(const SeamlessMap& made, std::optional<double> most, int genus)
 }
 
 tiling::PoleOptions pole_options(const Part& part, const PoleChoice& poles, BoundaryLines boundary, bool is_evened,
-                                 const std::string& solver, Execution& execution) {
+                                 const std::string& solver, std::shared_ptr<const tiling::Levels> levels,
+                                 Execution& execution) {
   const bool is_straight = boundary == BoundaryLines::kAutomatic
                                ? !(is_evened && has_angle_on_one_boundary(*part.surface, execution))
                                : boundary == BoundaryLines::kStraight;
-  return {poles.count, poles.vertices, poles.allowed, is_straight, part.labels, {solver}, is_evened};
+  return {poles.count, poles.vertices, poles.allowed, is_straight, part.labels, {solver}, is_evened, std::move(levels)};
 }
 
 // Throws for choices that a tiling that turns has not.
@@ -78,9 +79,11 @@ void check_turned(const TileOptions& options) {
 }  // namespace
 
 Tiler::Tiler(PartPointer part, const PoleChoice& poles, BoundaryLines boundary, bool is_evened,
-             const std::string& solver, const Tiler* like, Execution& execution)
+             const std::string& solver, std::shared_ptr<const tiling::Levels> levels, const Tiler* like,
+             Execution& execution)
     : part_(std::move(part)),
-      placement_(tiling::place(part_->surface, pole_options(*part_, poles, boundary, is_evened, solver, execution),
+      placement_(tiling::place(part_->surface,
+                               pole_options(*part_, poles, boundary, is_evened, solver, std::move(levels), execution),
                                execution, like ? &like->placement_ : nullptr)) {}
 
 SeamlessPointer Tiler::tile(const TileOptions& options, Execution& execution) const {
@@ -170,12 +173,23 @@ SeamlessPointer turned_tiling(tiling::TurnedTiler& tiler, const Part& part, int 
   return result;
 }
 
+std::shared_ptr<const tiling::Levels> Tilers::levels(Execution& execution) {
+  return levels_.get(0, [&] { return std::make_shared<const tiling::Levels>(part_->surface, execution); });
+}
+
+double Tilers::ratio_without_poles(BoundaryLines boundary, bool is_evened, Execution& execution) {
+  const tiling::PoleOptions options =
+      pole_options(*part_, {.count = 0}, boundary, is_evened, "auto", levels(execution), execution);
+  return tiling::ratio_without_poles(part_->surface, options, execution);
+}
+
 TilerPointer Tilers::tiler(const PoleChoice& poles, BoundaryLines boundary, bool is_evened, Execution& execution) {
   const TilerKey key{poles, boundary, is_evened};
   TilerPointer result = tilers_.get(key).value_or(nullptr);
   if (!result) {
     const TilerPointer like = tilers_.any().value_or(nullptr);
-    result = std::make_shared<const Tiler>(part_, poles, boundary, is_evened, "auto", like.get(), execution);
+    result = std::make_shared<const Tiler>(part_, poles, boundary, is_evened, "auto", levels(execution), like.get(),
+                                           execution);
   }
   tilers_.keep(key, result);
   return result;
@@ -212,6 +226,7 @@ SeamlessPointer Tilers::turned(const TileOptions& options, Execution& execution)
   if (!tiler) {
     tiling::TilerOptions asked{
         options.turns, {}, part_->up, options.rows, options.marked, options.missing.value_or(std::vector<int>())};
+    asked.levels = levels(execution);
     if (heading.is_upright() && part_->has_positions()) asked.along = {up_vector(part_->up), false};
     if (heading.kind == Heading::Kind::kVector) asked.along = {heading.vector, true};
     tiler = std::make_shared<tiling::TurnedTiler>(part_->surface, asked, execution);

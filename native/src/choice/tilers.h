@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/resource_pool.h"
 #include "choice/part.h"
 #include "choice/seamless_map.h"
 
@@ -53,7 +54,7 @@ class Tiler {
   /// Places the poles. @param like null, or another of the same surface, whose bases are taken
   /// @throws TopologyError for poles that do not fit; SolverError; Cancelled, as all below
   Tiler(PartPointer part, const PoleChoice& poles, BoundaryLines boundary, bool is_evened, const std::string& solver,
-        const Tiler* like, Execution& execution);
+        std::shared_ptr<const tiling::Levels> levels, const Tiler* like, Execution& execution);
 
   const tiling::Placement& placement() const { return placement_; }
 
@@ -86,10 +87,14 @@ class Tilers {
   /// std::invalid_argument for choices that a tiling that turns has not
   SeamlessPointer tile(const TileOptions& options, Execution& execution);
 
+  /// The 95 % over 5 % quantile of the density of tilings without poles, about, before they are rounded and evened.
+  double ratio_without_poles(BoundaryLines boundary, bool is_evened, Execution& execution);
   /// The last ones are kept.
   TilerPointer tiler(const PoleChoice& poles, BoundaryLines boundary, bool is_evened, Execution& execution);
 
  private:
+  std::shared_ptr<const tiling::Levels> levels(Execution& execution);
+
   struct TilerKey {
     PoleChoice poles;
     BoundaryLines boundary;
@@ -113,6 +118,7 @@ class Tilers {
   SeamlessPointer turned(const TileOptions& options, Execution& execution);
 
   PartPointer part_;
+  Memo<int, tiling::Levels> levels_;
   Newest<TilerKey, TilerPointer> tilers_{kKept};
   Newest<ShiftedKey, SeamlessPointer> shifted_{kKept};
   Newest<TurnedKey, std::shared_ptr<tiling::TurnedTiler>> turned_{kKept};

@@ -37,8 +37,9 @@ constexpr double kPoorTurned = 2.0;
 constexpr double kLined = 0.1, kMostLined = 0.3;
 constexpr int kMostLinedTriangles = 20'000;
 
-// The work on a tiling for each triangle, of so many at least, with few loops: so many double it, by their square.
-constexpr double kTriangle = 1e5, kFewLoops = 20;
+// The work on a tiling for each triangle of the level that it is made on, of so many at least, and for each one of the
+// part. So many loops double it, by their square.
+constexpr double kLevelTriangle = 1e5, kTriangle = 5e3, kFewLoops = 20;
 constexpr int kFew = 4000;
 
 // Radians from the direction that is asked for, where no whole tiles of one size are nearer to it.
@@ -121,13 +122,16 @@ bool TilingSearch::is_strict() const {
 
 double TilingSearch::expected_work() const {
   const double loops = std::max(2 * part_->type.genus + part_->type.boundary_count - 1, 0) / kFewLoops;
-  return kTriangle * std::max(part_->triangle_count(), kFew) * (1 + loops * loops);
+  const int count = part_->triangle_count();
+  return (kLevelTriangle * std::clamp(count, kFew, tiling::kLevelTriangles) + kTriangle * count) * (1 + loops * loops);
 }
 
 double TilingSearch::guess_without_poles(Execution& execution) {
-  const TilerPointer tiler =
-      structure_->tilers().tiler({.count = 0}, request_.tiling.boundary, request_.evenness > 0, execution);
-  return 2 * kRounded * std::log(std::max(std::sqrt(tiler->placement().optimal_density_ratio), 1.0));
+  if (!ratio_without_poles_) {
+    ratio_without_poles_ =
+        structure_->tilers().ratio_without_poles(request_.tiling.boundary, request_.evenness > 0, execution);
+  }
+  return kRounded * std::log(std::max(*ratio_without_poles_, 1.0));
 }
 
 std::vector<MapPointer> TilingSearch::of_density(double density, int tries, Execution& execution) {

@@ -61,6 +61,7 @@ class TilingSearch {
   StructurePointer structure_;
   Request request_;
   Budget& budget_;
+  std::optional<double> ratio_without_poles_;
   std::optional<std::vector<int>> edges_of_lines_;
 };
 

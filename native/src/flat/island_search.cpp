@@ -150,6 +150,7 @@ std::optional<Layout> IslandSearch::along(const Cuts& cuts, double most, Run& ru
       return guess(a.conformal, run) < guess(b.conformal, run);
     });
     if (!(guess(one->conformal, run) < most) && !std::isinf(most)) break;
+    if (run.left <= 0 && std::isfinite(most)) break;
     const Candidate candidate = std::move(*one);
     left.erase(one);
     run.left -= kEvening * triangle_count(sheet_);

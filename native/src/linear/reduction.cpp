@@ -304,6 +304,44 @@ IntegerVector nearest_plane(const ReducedBasis& reduced, const VectorXd& target)
   return original_integers(reduced, nearest_coefficients(reduced, target));
 }
 
+IntegerVector nearest_of_planes(const ReducedBasis& reduced, const VectorXd& target, int kept) {
+  struct Sum {
+    double squared;
+    VectorXd left;
+    IntegerVector z;
+  };
+  struct Next {
+    double squared;
+    std::size_t sum;
+    std::int64_t z;
+  };
+  const auto n = reduced.R.cols();
+  std::vector<Sum> sums{{0, reduced.Q.transpose() * target, IntegerVector::Zero(n)}}, longer;
+  for (Eigen::Index k = n; k-- > 0;) {
+    std::vector<Next> all;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const double at = sums[i].left[k] / reduced.R(k, k);
+      const auto near = static_cast<std::int64_t>(std::llround(at));
+      const int side = at > static_cast<double>(near) ? 1 : -1;
+      for (const std::int64_t z : {near, near + side, near - side}) {
+        const double off = (at - static_cast<double>(z)) * reduced.R(k, k);
+        all.push_back({sums[i].squared + off * off, i, z});
+      }
+    }
+    std::ranges::stable_sort(all, {}, &Next::squared);
+    all.resize(std::min(all.size(), static_cast<std::size_t>(kept)));
+    longer.clear();
+    for (const Next& next : all) {
+      Sum& sum = longer.emplace_back(sums[next.sum]);
+      sum.squared = next.squared;
+      sum.z[k] = next.z;
+      sum.left.head(k) -= static_cast<double>(next.z) * reduced.R.col(k).head(k);
+    }
+    sums.swap(longer);
+  }
+  return original_integers(reduced, sums[0].z.cast<double>());
+}
+
 IntegerMatrix integer_kernel(IntegerMatrix A) {
   using Eigen::Index;
   IntegerMatrix all = IntegerMatrix::Identity(A.cols(), A.cols());

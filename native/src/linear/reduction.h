@@ -41,6 +41,10 @@ ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = kDelta, const std::
 /// @throw SolverError the target is not finite @throw SolverError the integers are beyond 2^53
 IntegerVector nearest_plane(const ReducedBasis& reduced, const Eigen::VectorXd& target);
 
+/// The same with the least |target - B z| among those to which `kept` partial sums lead, from the last coefficient to
+/// the first: nearer than the nearest plane. Cost: so many times as much.
+IntegerVector nearest_of_planes(const ReducedBasis& reduced, const Eigen::VectorXd& target, int kept);
+
 struct NearPoints {
   std::vector<IntegerVector> integers;  ///< for the B that was reduced, in a fixed order
   std::int64_t steps = 0;               ///< nodes of the search

@@ -284,6 +284,7 @@ void Refinement::split() {
   const int right = r < 0 ? -1 : add(t, s, r, slot_r, r_to_s, t_to_r);
   table_.link(left, right);
   set_first_sides(sector, split, left, right);
+  last_ = {from, to, left, right};
   ++made_;
 }
 

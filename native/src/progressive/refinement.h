@@ -68,6 +68,17 @@ class Refinement {
 
   /// Neighbours of v_s that became neighbours of v_t instead in the last split.
   const std::vector<int>& moved() const { return moved_; }
+
+  /// What the last split did: sides are those of a CornerTable.
+  struct Last {
+    int from = 0, to = 0;     ///< the sides from .. to-1 of the star moved to v_t; a closed star is a ring
+    int left = 0, right = 0;  ///< v_s -> v_t and v_t -> v_s in the new triangles; -1 for none
+  };
+  const Last& last() const { return last_; }
+  /// The sides that left v_s before the last split, counter-clockwise.
+  const std::vector<int>& star_sides() const { return star_sides_; }
+  /// Their ends; one more where v_s was on the boundary.
+  const std::vector<int>& star_vertices() const { return star_vertices_; }
   int splits_made() const { return made_; }
   std::vector<Triple> triangles() const;
 
@@ -92,6 +103,7 @@ class Refinement {
   std::vector<int> leaving_;
   std::vector<int> star_sides_, star_vertices_;  // around v_s, counter-clockwise
   std::vector<int> moved_;
+  Last last_;
   int made_ = 0;
 };
 

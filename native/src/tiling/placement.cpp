@@ -277,13 +277,22 @@ Placement placement(PoleOptions options, uv::Coefficients kind, const GreensFunc
   return result;
 }
 
-PlacementStart started(const std::shared_ptr<const mesh::Surface>& surface, const PoleOptions& options,
+PlacementStart started(const std::shared_ptr<const mesh::Surface>& surface, const PoleOptions& options, int triangles,
                        Execution& execution) {
   execution.stage("level for the poles", 0.0, 0.2);
-  CoarseLevel level = options.is_chosen() ? CoarseLevel{surface, {}, {}} : coarse_level(surface, execution);
+  CoarseLevel level{surface, {}, {}};
+  if (!options.is_chosen()) {
+    const auto levels = options.levels ? options.levels : std::make_shared<const Levels>(surface, execution);
+    level = levels->level(triangles, execution);
+  }
   execution.stage("forms for the poles", 0.2, 0.25);
   auto basis = std::make_shared<const PoleBasis>(level.surface, options.solving, execution);
   return {std::move(level), std::move(basis), std::make_shared<BalancedForm>()};
+}
+
+uv::Coefficients kind_of(const mesh::Surface& surface, const PoleOptions& options) {
+  const auto type = mesh::topological_type(surface);
+  return !type.closed() && (options.straight || type.genus > 0) ? uv::Coefficients::real : uv::Coefficients::complex;
 }
 
 // Whether another placement begins with the same.
@@ -306,11 +315,9 @@ LiftedPoles JacobiInversion::moved(LiftedPoles poles, const VectorXcd& periods, 
 
 Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, Execution& execution,
                 const Placement* like) {
-  const auto type = mesh::topological_type(*surface);
-  const bool straight = !type.closed() && (options.straight || type.genus > 0);
-  const auto kind = straight ? uv::Coefficients::real : uv::Coefficients::complex;
+  const uv::Coefficients kind = kind_of(*surface, options);
   if (like && !is_alike(*like, *surface, options, kind)) like = nullptr;
-  PlacementStart start = like ? like->start : started(surface, options, execution);
+  PlacementStart start = like ? like->start : started(surface, options, kLevelTriangles, execution);
   const CoarseLevel& level = start.level;
   GreensFunctions greens(start.basis);
   PlaceOptions place_options{kind, {}, options.vertices, level.large_polygons, options.evened, start.balanced};
@@ -327,6 +334,16 @@ Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions option
   Placement result = placement(std::move(options), kind, greens, std::move(form), std::move(start), like, execution);
   execution.finish();
   return result;
+}
+
+double ratio_without_poles(const std::shared_ptr<const mesh::Surface>& surface, const PoleOptions& options,
+                           Execution& execution) {
+  const Execution::Within within(execution);
+  const PlacementStart start = started(surface, options, kFewTriangles, execution);
+  GreensFunctions greens(start.basis);
+  const PlaceOptions asked{
+      kind_of(*surface, options), {}, {}, start.level.large_polygons, options.evened, start.balanced};
+  return density_ratio(density(placed_poles(greens, asked, 0, execution), greens));
 }
 
 std::shared_ptr<const SeamlessMaps> maps_at(const Placement& placement, const std::vector<int>& poles,

@@ -60,6 +60,7 @@ struct PoleOptions {
   std::vector<int> labels;     ///< #V: what a vertex is called in messages; empty: its index
   structure::Options solving;  ///< how the linear systems are solved
   bool evened = false;         ///< tilings will be evened: then fewer poles are enough
+  std::shared_ptr<const Levels> levels = nullptr;  ///< of the surface; null: its own
 
   bool is_chosen() const { return !vertices.empty(); }
 };
@@ -91,6 +92,11 @@ struct Placement {
 /// @pre connected, no isolated vertices. @throws TopologyError for poles that do not fit; SolverError; Cancelled
 Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, Execution& execution,
                 const Placement* like = nullptr);
+
+/// The 95 % over 5 % quantile of the density of the most even form without poles, on a level of few triangles: about
+/// that on the surface. @throws as `place`
+double ratio_without_poles(const std::shared_ptr<const mesh::Surface>& surface, const PoleOptions& options,
+                           Execution& execution);
 
 /// Returns the seamless maps with poles at these vertices. @throws TopologyError for poles that do not fit;
 /// SolverError; Cancelled

@@ -124,7 +124,6 @@ double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, St
   return sum;
 }
 
-constexpr int kMostSteps = 40;
 constexpr double kWhole = 0.9;  // part of the work before flipped triangles are turned back, for the progress function
 // Rings of triangles around flipped ones, tried in turn: all of them may move, and the inner ones keep the shape that
 // the map before evening gives them. Keeping it costs evenness, so moving alone is tried first.
@@ -205,28 +204,29 @@ struct Found {
 };
 
 Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept& kept, double lambda,
-            const std::string& solver_name, double& vertex_steps, Execution& execution) {
+            const std::string& solver_name, int steps, double& vertex_steps, Execution& execution) {
   std::optional<Solvers> shifted;
   std::optional<TurnedSolver> turned;
   if (kept.turns.empty())
     shifted.emplace(surface, kept, solver_name, execution);
   else
-    turned.emplace(surface, kept, solver_name);
+    turned.emplace(surface, kept, solver_name == kDiagonal);
   const auto make = [&](const Function& delta) -> Precondition {
     const Array<double> weights = energy.edge_weights(surface, delta, lambda);
-    const auto with = [&](auto& solver) -> Precondition {
-      solver.make(weights, execution);
-      return [&execution, made = &solver](const Function& gradient) { return made->precondition(gradient, execution); };
-    };
-    return shifted ? with(*shifted) : with(*turned);
+    if (turned) {
+      turned->make(weights);
+      return [&turned](const Function& gradient) { return turned->precondition(gradient); };
+    }
+    shifted->make(weights, execution);
+    return [&](const Function& gradient) { return shifted->precondition(gradient, execution); };
   };
   Descent descent(
       energy, lambda, make, [&](Function& f) { clear(f, kept); }, execution.workers());
   const double flipped_before = descent.begin(Function(surface.vertex_count, 0.0)).flipped;
   // Whole numbers flip triangles at the cones of a map that turns: these are turned back as well.
   const double most_flipped = kept.turns.empty() ? flipped_before : 0;
-  for (int step = 0; step < kMostSteps; ++step) {
-    execution.part(kWhole * step / kMostSteps, kWhole * (step + 1) / kMostSteps);
+  for (int step = 0; step < steps; ++step) {
+    execution.part(kWhole * step / steps, kWhole * (step + 1) / steps);
     execution.report(0);
     if (!descent.step()) break;
   }
@@ -337,7 +337,7 @@ std::vector<StrainEnergy::Patch> StrainEnergy::around_flipped(const Function& de
 }
 
 uv::UvArray evened(const mesh::Surface& surface, uv::UvArray uv, const Kept& kept, double evenness,
-                   Execution& execution, const std::string& solver) {
+                   Execution& execution, const std::string& solver, int steps) {
   if (evenness == 0) return uv::UvArray::Zero(surface.vertex_count, 2);
   const StrainEnergy energy(surface, uv, kept.poles, kept.turns, execution.workers());
   uv.resize(0, 2);  // the energy knows it, and its memory is free for the descent
@@ -345,7 +345,8 @@ uv::UvArray evened(const mesh::Surface& surface, uv::UvArray uv, const Kept& kep
   double most = 1, vertex_steps = kMostTurning * std::max(surface.vertex_count, kFewVertices);
   for (const double factor : kFactors) {
     if (factor > most) continue;
-    const Found found = least(surface, energy, kept, factor * lambda_of(evenness), solver, vertex_steps, execution);
+    const Found found =
+        least(surface, energy, kept, factor * lambda_of(evenness), solver, steps, vertex_steps, execution);
     if (found.flipped_more > kMuch) most = factor / 2;
     if (found.flipped_more > 0) continue;
     uv::UvArray result(surface.vertex_count, 2);

@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "base/workers.h"
-#include "mesh/union_find.h"
-#include "solver/solver_choice.h"
 
 namespace holomorph::uv {
 namespace {
@@ -27,8 +25,6 @@ double product(const Function& a, const Function& b, Workers& workers) {
 void add(Function& a, double factor, const Function& b, Workers& workers) {
   for_rows(workers, static_cast<int>(a.size()), [&](int v) { a[v] += factor * b[v]; });
 }
-
-constexpr double kRoundedTurn = 1e-9;  // of a turn by quarters
 
 // Calls body(edge, a, b, turn) once for each edge: a function at vertex a is that at b, times the turn.
 template <class Body>
@@ -120,84 +116,13 @@ void Descent::take(Function step, Function change) {
   steps_.push_back({std::move(step), std::move(change), curvature});
 }
 
-std::unique_ptr<Cover> Cover::of(const mesh::Surface& surface, const Kept& kept) {
-  const Unknowns& unknowns = kept.unknowns;
-  const int ground = 2 * unknowns.count;
-  const auto vertex = [&](int part, int sign) {
-    return unknowns.number[part] < 0 ? ground : 2 * unknowns.number[part] + (sign * unknowns.sign[part] < 0);
-  };
-  auto cover = std::make_unique<Cover>();
-  mesh::UnionFind pieces(ground + 1);
-  bool are_quarters = true;
-  for_edges(surface, kept, [&](int edge, int a, int b, Complex turn) {
-    const auto re = static_cast<int>(std::lround(turn.real())), im = static_cast<int>(std::lround(turn.imag()));
-    are_quarters &= std::abs(turn - Complex(re, im)) < kRoundedTurn;
-    for (const int part : {0, 1}) {
-      // u_a = re u_b - im v_b, v_a = im u_b + re v_b, and one of both is 0.
-      const int other = re != 0 ? part : 1 - part, by = re != 0 ? re : part == 0 ? -im : im;
-      for (const int sign : {1, -1}) {
-        const int from = vertex(2 * a + part, sign), to = vertex(2 * b + other, by * sign);
-        if (from == to) continue;
-        cover->edges.push_back({edge, {from, to}, {}, {}});
-        pieces.join(from, to);
-      }
+void TurnedSolver::make(const Array<double>& edge_weights) {
+  if (is_diagonal_) {
+    Function sums(surface_.vertex_count, 0.0);
+    for (std::size_t e = 0; e < surface_.edges.size(); ++e) {
+      for (const int v : surface_.edges[e]) sums[v] += Complex(edge_weights[e], edge_weights[e]);
     }
-  });
-  for (int v = 0; v <= ground; ++v) are_quarters &= pieces.lowest(v) == pieces.lowest(ground);
-  if (!are_quarters) return nullptr;
-  // The pattern: rows with their columns ascending, each once.
-  std::vector<int> first(ground + 2, 0);
-  for (const Edge& edge : cover->edges) ++first[edge.ends[0] + 1], ++first[edge.ends[1] + 1];
-  for (int v = 0; v <= ground; ++v) first[v + 1] += first[v] + 1;
-  std::vector<int> next(first.begin(), first.end() - 1), neighbours(first.back());
-  for (int v = 0; v <= ground; ++v) neighbours[next[v]++] = v;
-  for (const Edge& edge : cover->edges) {
-    neighbours[next[edge.ends[0]]++] = edge.ends[1];
-    neighbours[next[edge.ends[1]]++] = edge.ends[0];
-  }
-  cover->starts.push_back(0);
-  for (int v = 0; v <= ground; ++v) {
-    const auto begin = neighbours.begin() + first[v], end = neighbours.begin() + first[v + 1];
-    std::sort(begin, end);
-    cover->columns.insert(cover->columns.end(), begin, std::unique(begin, end));
-    cover->starts.push_back(static_cast<int>(cover->columns.size()));
-  }
-  const auto entry = [&](int row, int column) {
-    const auto begin = cover->columns.begin() + cover->starts[row],
-               end = cover->columns.begin() + cover->starts[row + 1];
-    return static_cast<int>(std::lower_bound(begin, end, column) - cover->columns.begin());
-  };
-  for (Edge& edge : cover->edges) {
-    for (const int i : {0, 1}) {
-      edge.entries[i] = entry(edge.ends[i], edge.ends[1 - i]);
-      edge.diagonals[i] = entry(edge.ends[i], edge.ends[i]);
-    }
-  }
-  return cover;
-}
-
-solver::Laplacian Cover::laplacian(const Array<double>& edge_weights) const {
-  solver::Laplacian result{starts, columns, Array<double>(columns.size(), 0.0)};
-  for (const Edge& edge : edges) {
-    for (const int i : {0, 1}) {
-      result.weights[edge.entries[i]] -= edge_weights[edge.edge];
-      result.weights[edge.diagonals[i]] += edge_weights[edge.edge];
-    }
-  }
-  return result;
-}
-
-TurnedSolver::TurnedSolver(const mesh::Surface& surface, const Kept& kept, const std::string& solver)
-    : surface_(surface), kept_(kept) {
-  if (solver::choose_method(solver, 4 * surface.vertex_count, 1).method == solver::Method::multigrid)
-    cover_ = Cover::of(surface, kept);
-}
-
-void TurnedSolver::make(const Array<double>& edge_weights, Execution& execution) {
-  multigrid_.reset();  // first, so that its memory is free
-  if (cover_) {
-    multigrid_ =
-        solver::make_solver(solver::Method::multigrid, cover_->laplacian(edge_weights), {cover_->ground()}, execution);
+    diagonal_ = kept_.unknowns.gathered(sums).cwiseAbs();
     return;
   }
   std::vector<Eigen::Triplet<double>> entries;
@@ -209,15 +134,10 @@ void TurnedSolver::make(const Array<double>& edge_weights, Execution& execution)
   factor_.compute(lower, {});
 }
 
-Function TurnedSolver::precondition(const Function& gradient, Execution& execution) {
+Function TurnedSolver::precondition(const Function& gradient) {
   const Eigen::VectorXd b = kept_.unknowns.gathered(gradient);
-  if (!cover_) return kept_.unknowns.spread(kInverse * factor_.solve(Eigen::MatrixXd(b)).col(0));
-  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(cover_->ground() + 1, 1);
-  for (Eigen::Index i = 0; i < b.size(); ++i) B(2 * i, 0) = b[i], B(2 * i + 1, 0) = -b[i];
-  const solver::Solution X = multigrid_->precondition(B, {solver::Condition::dirichlet}, execution);
-  Eigen::VectorXd x(b.size());
-  for (Eigen::Index i = 0; i < b.size(); ++i) x[i] = 0.5 * kInverse * (X(2 * i, 0) - X(2 * i + 1, 0));
-  return kept_.unknowns.spread(x);
+  if (is_diagonal_) return kept_.unknowns.spread(kInverse * b.cwiseQuotient(diagonal_));
+  return kept_.unknowns.spread(kInverse * factor_.solve(Eigen::MatrixXd(b)).col(0));
 }
 
 void Unknowns::add(int p, int q, double value, std::vector<Eigen::Triplet<double>>& entries) const {

@@ -4,8 +4,6 @@
 #include <Eigen/SparseCore>
 #include <deque>
 #include <functional>
-#include <memory>
-#include <string>
 #include <vector>
 
 #include "base/execution.h"
@@ -13,7 +11,6 @@
 #include "base/workers.h"
 #include "mesh/surface.h"
 #include "solver/direct/sparse_cholesky.h"
-#include "solver/laplace_solver.h"
 #include "uv/strain_energy.h"
 
 namespace holomorph::uv {
@@ -98,37 +95,22 @@ struct Kept {
 
 // The preconditioner of functions that turn from corner to corner: u and v are unknowns of one system.
 
-/// The parts of a function that turns by quarters, with both signs, as vertices of a graph: the parts of one end of an
-/// edge are, up to their signs, those of the other end. So the Laplacian of the connection is the plain Laplacian of
-/// this graph, on functions that change sign with the part; multigrid knows only plain ones.
-struct Cover {
-  /// @return none where functions turn by other angles, or no part is held in a piece of the graph
-  static std::unique_ptr<Cover> of(const mesh::Surface& surface, const Kept& kept);
-
-  int ground() const { return static_cast<int>(starts.size()) - 2; }  ///< the vertex of all parts that are 0
-  solver::Laplacian laplacian(const Array<double>& edge_weights) const;
-
-  struct Edge {
-    int edge;                               ///< of the surface
-    int ends[2], entries[2], diagonals[2];  ///< and where its entries are
-  };
-  std::vector<Edge> edges;
-  Array<int> starts, columns;  ///< of the Laplacian. Unknown i is vertex 2 i, and less that is vertex 2 i + 1
-};
-
+/// An approximate inverse of the second derivatives of the energy.
 class TurnedSolver {
  public:
-  /// @param solver "auto", "direct" or "multigrid"
-  TurnedSolver(const mesh::Surface& surface, const Kept& kept, const std::string& solver);
+  /// @param is_diagonal whether it is that of the diagonal alone, which is light and sees no further than an edge
+  TurnedSolver(const mesh::Surface& surface, const Kept& kept, bool is_diagonal)
+      : surface_(surface), kept_(kept), is_diagonal_(is_diagonal) {}
 
-  void make(const Array<double>& edge_weights, Execution& execution);
-  Function precondition(const Function& gradient, Execution& execution);
+  /// @throws SolverError
+  void make(const Array<double>& edge_weights);
+  Function precondition(const Function& gradient);
 
  private:
   const mesh::Surface& surface_;
   const Kept& kept_;
-  std::unique_ptr<Cover> cover_;  // none: the factor
-  std::unique_ptr<solver::LaplaceSolver> multigrid_;
+  const bool is_diagonal_;
+  Eigen::VectorXd diagonal_;
   solver::SparseCholesky factor_;
 };
 

@@ -248,15 +248,6 @@ def test_the_hexagons_of_a_ball():
     assert np.array_equal(named.uv, made.uv)
 
 
-@pytest.mark.parametrize("up", [1, -1])
-def test_cones_lie_where_they_are_seen_least(up):
-    """Below; the cones of the thorns are as many at the top as at the bottom."""
-    ball = bumps()
-    surface = surface_of(replace(ball, vertices=ball.vertices * [up, 1, up]))
-    cones = tiling(surface, 4, direction="upright", lines="none").cones
-    assert surface.vertices[cones, 2].mean() < -0.1
-
-
 @pytest.mark.parametrize("tiles", [12.0, 300.0])
 @pytest.mark.parametrize("turns", [2, 4, 6])
 def test_added_distortion_counts_angles_and_flips(tiles, turns):

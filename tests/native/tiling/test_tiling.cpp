@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include "mesh/stars.h"
 #include "mesh/triangle_tree.h"
 #include "structure/pole_structure.h"
+#include "tiling/cones/cones.h"
 #include "tiling/greens/pole_basis.h"
 #include "tiling/inversion/abel_jacobi.h"
 #include "tiling/maps/assemble.h"
@@ -219,6 +221,29 @@ TEST(TextureLattice, NearestPointsAndSymmetry) {
     const Complex point = lattice.point(3, -2);
     EXPECT_LT(std::abs(lattice.nearest(point + Complex(0.2, -0.1)) - point), 1e-12);
     EXPECT_LT((lattice.coordinates(point) - Eigen::Vector2d(3, -2)).norm(), 1e-12);
+  }
+}
+
+// The mean height of the cones that cost least where `up` is up.
+double height_of_cones(const mesh::Surface& surface, double price, double up) {
+  Execution execution(1);
+  const ConeOptions options{.k = 4, .price = price, .along = Along{{0, 0, up}}};
+  const std::vector<Cones> found = find_cones(surface, options, execution);
+  const Cones& best = *std::ranges::min_element(found, {}, [](const Cones& each) { return each.u2 + each.price; });
+  double sum = 0, count = 0;
+  for (int v = 0; v < surface.vertex_count; ++v) {
+    if (best.missing[v] == 0) continue;
+    sum += surface.polygons.vertices[v][2];
+    ++count;
+  }
+  return sum / count;
+}
+
+TEST(Cones, LieWhereTheyAreSeenLeast) {
+  const auto torus = wavy_torus(24, 16);
+  for (const double price : {0.001, 0.01}) {
+    EXPECT_LT(height_of_cones(*torus, price, 1), -0.1);
+    EXPECT_GT(height_of_cones(*torus, price, -1), 0.1);
   }
 }
 

@@ -1,4 +1,4 @@
-// The Laplacian of functions that turn by quarters, on a graph with their parts for vertices.
+// The Laplacian of functions that turn by quarters, and its inverses.
 #include "uv/turned_functions.h"
 
 #include <gtest/gtest.h>
@@ -66,16 +66,11 @@ double product(const Function& a, const Function& b) {
   return sum;
 }
 
-TEST_F(TurnedSolverTest, TheLaplacianOfTheCoverIsThatOfTheConnection) {
-  const auto cover = Cover::of(surface_, kept_);
-  ASSERT_TRUE(cover);
-  const solver::Laplacian L = cover->laplacian(weights_);
-  const int count = kept_.unknowns.count;
-  const Eigen::VectorXd x = Eigen::VectorXd::Random(count);
-  Eigen::VectorXd lifted = Eigen::VectorXd::Zero(L.size());
-  for (int i = 0; i < count; ++i) lifted[2 * i] = x[i], lifted[2 * i + 1] = -x[i];
-  // The energy, edge by edge, once each: twice it is that of both signs.
-  const Function f = kept_.unknowns.spread(x);
+TEST_F(TurnedSolverTest, TheFactorInvertsTheLaplacianOfTheConnection) {
+  TurnedSolver solver(surface_, kept_, false);
+  solver.make(weights_);
+  const Function b = random_function(), x = solver.precondition(b);
+  // The energy, edge by edge, once each.
   double energy = 0;
   std::vector<char> done(surface_.edges.size(), 0);
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
@@ -83,41 +78,36 @@ TEST_F(TurnedSolverTest, TheLaplacianOfTheCoverIsThatOfTheConnection) {
       const int edge = surface_.triangle_edges[t][i], j = (i + 1) % 3;
       if (done[edge]) continue;
       done[edge] = 1;
-      const Complex a = kept_.turns[t][i] * f[surface_.triangles[t][i]];
-      const Complex b = kept_.turns[t][j] * f[surface_.triangles[t][j]];
-      energy += weights_[edge] * std::norm(a - b);
+      const Complex p = kept_.turns[t][i] * x[surface_.triangles[t][i]];
+      const Complex q = kept_.turns[t][j] * x[surface_.triangles[t][j]];
+      energy += weights_[edge] * std::norm(p - q);
     }
   }
-  const Eigen::VectorXd Lx = L.matrix() * lifted;
-  EXPECT_NEAR(lifted.dot(Lx), 2 * energy, 1e-12 * energy);
-  for (int i = 0; i < count; ++i) EXPECT_EQ(Lx[2 * i], -Lx[2 * i + 1]);
-  EXPECT_NEAR((L.matrix() * Eigen::VectorXd::Ones(L.size())).cwiseAbs().maxCoeff(), 0, 1e-12);
+  // x L x = kInverse x g, where g sums what b has at the parts of an unknown.
+  const Eigen::VectorXd g = kept_.unknowns.gathered(b);
+  Eigen::VectorXd unknown = Eigen::VectorXd::Zero(g.size());
+  for (std::size_t part = 0; part < kept_.unknowns.number.size(); ++part) {
+    const int i = kept_.unknowns.number[part];
+    if (i >= 0) unknown[i] = kept_.unknowns.sign[part] * (part % 2 == 0 ? x[part / 2].real() : x[part / 2].imag());
+  }
+  EXPECT_GT(energy, 0);
+  EXPECT_NEAR(energy, kInverse * unknown.dot(g), 1e-9 * energy);
 }
 
-TEST_F(TurnedSolverTest, ACycleIsAnApproximateInverse) {
-  Execution execution(1);
-  TurnedSolver direct(surface_, kept_, "direct"), cycle(surface_, kept_, "multigrid");
-  direct.make(weights_, execution);
-  cycle.make(weights_, execution);
-  const Function b = random_function(), c = random_function();
-  const Function exact = direct.precondition(b, execution), rough = cycle.precondition(b, execution);
-  Function difference = rough;
-  for (std::size_t v = 0; v < b.size(); ++v) difference[v] -= exact[v];
-  EXPECT_GT(product(difference, difference), 0);  // it is not the same solver
-  EXPECT_LT(product(difference, difference), 0.04 * product(exact, exact));
-  const Function other = cycle.precondition(c, execution);
-  EXPECT_NEAR(product(c, rough), product(b, other), 1e-5 * std::abs(product(b, rough)));  // in single precision
-}
-
-TEST_F(TurnedSolverTest, OtherTurnsAndLooseUnknownsHaveNoCover) {
-  Kept sixths = kept_;
-  sixths.turns[5][1] = std::polar(1.0, std::numbers::pi / 3);
-  EXPECT_FALSE(Cover::of(surface_, sixths));
-  Kept loose = kept_;
-  for (auto& corners : loose.turns) corners = {1, 1, 1};
-  loose.unknowns.number[1] = loose.unknowns.count++;  // no v is held, and nothing turns u to v
-  loose.unknowns.number[100] = loose.unknowns.count++;
-  EXPECT_FALSE(Cover::of(surface_, loose));
+TEST_F(TurnedSolverTest, TheDiagonalIsSymmetricAndSeesNoNeighbour) {
+  TurnedSolver solver(surface_, kept_, true);
+  solver.make(weights_);
+  const Function b = random_function(), c = random_function(), x = solver.precondition(b), y = solver.precondition(c);
+  EXPECT_NEAR(product(c, x), product(b, y), 1e-9 * std::abs(product(b, x)));
+  Function one(surface_.vertex_count, 0.0);
+  one[30] = 1;
+  const Function at = solver.precondition(one);
+  double sum = 0;
+  for (std::size_t e = 0; e < surface_.edges.size(); ++e) {
+    if (surface_.edges[e][0] == 30 || surface_.edges[e][1] == 30) sum += weights_[e];
+  }
+  EXPECT_NEAR(at[30].real(), kInverse / sum, 1e-12);
+  EXPECT_NEAR(product(at, at), at[30].real() * at[30].real(), 1e-15);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include "solver/direct/sparse_cholesky.h"
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 #include <new>
+#include <span>
 
 #include "base/errors.h"
 #include "base/execution.h"
@@ -105,8 +107,19 @@ struct SparseCholesky::Factor {
 
   void compute(const Lower& lower) {
     cholmod_sparse A = Eigen::viewAsCholmod(lower.selfadjointView<Eigen::Lower>());
-    L = cholmod_analyze(&A, &common);
+    if (!has_entries_of(lower)) {
+      cholmod_free_factor(&L, &common);
+      L = cholmod_analyze(&A, &common);
+      rows.assign(lower.innerIndexPtr(), lower.innerIndexPtr() + lower.nonZeros());
+      starts.assign(lower.outerIndexPtr(), lower.outerIndexPtr() + lower.cols() + 1);
+    }
     factorise(A);
+  }
+
+  // Whether the last matrix had its entries in the same places: then the order of elimination is the same.
+  bool has_entries_of(const Lower& lower) const {
+    return L != nullptr && std::ranges::equal(starts, std::span(lower.outerIndexPtr(), lower.cols() + 1)) &&
+           std::ranges::equal(rows, std::span(lower.innerIndexPtr(), lower.nonZeros()));
   }
 
   // AMD with the constraint that the fixed unknowns come last. The postordering that follows moves some of them forward
@@ -170,6 +183,7 @@ struct SparseCholesky::Factor {
 
   cholmod_common common;
   cholmod_factor* L = nullptr;
+  std::vector<int> starts, rows;  // of the last matrix
 };
 
 #else
@@ -195,7 +209,7 @@ void SparseCholesky::compute(const Lower& lower, std::vector<char> fixed) {
   fixed_ = std::move(fixed);
   others_.clear();
   factor_of_others_.reset();
-  factor_ = std::make_unique<Factor>();
+  if (!factor_ || !fixed_.empty()) factor_ = std::make_unique<Factor>();
   if (lower.rows() == 0) return;
   on_sound_thread([&] { factorise(lower); });
   Execution::count(factor_->operations() +

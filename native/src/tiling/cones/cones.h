@@ -13,7 +13,8 @@ namespace holomorph::tiling {
 /// The angle at vertex v is 2 pi (1 - missing[v] / k). A hole has what its polygon would have, at its place_of.
 struct Cones {
   std::vector<int> missing;  ///< #V
-  double cost = 0;           ///< the integral of u^2 over the surface, its area 1, and the price of the cones
+  double u2 = 0;             ///< the integral of u^2 over the surface, its area 1
+  double price = 0;          ///< of the cones
 };
 
 struct ConeOptions {
@@ -26,14 +27,12 @@ struct ConeOptions {
 };
 
 /// Finds cones with which the log scale u of the flat metric, L u = (2 pi / k) missing - defect, is near 0, and with
-/// which handles turn by nearly whole k-th turns. The quadratic form of u in the cones is known at a few hundred
-/// candidates by Green's functions; cones appear, vanish and jump in pairs while that lowers the cost, then among
-/// candidates ever nearer to them. Begins with the cones of the smoothest field of k directions that is pulled level
-/// (Knoeppel and others 2013, doi:10.1145/2461912.2462005), by several weights of that, and with cones placed by
-/// curvature alone.
-/// @return those of each start, the least cost first
-/// @throws SolverError, Cancelled
-/// @param surface some thousand triangles: Green's functions are kept of hundreds of candidates
+/// which handles turn by nearly whole k-th turns. The quadratic form of u in the cones is known at all vertices by
+/// Green's functions; cones jump, appear and vanish in pairs while that lowers the cost, with the price of a cone
+/// rising. Begins with cones placed by curvature, and with those of the smoothest field of k directions that is pulled
+/// level (Knoeppel and others 2013, doi:10.1145/2461912.2462005), by several weights of that.
+/// @return those of each start. @throws SolverError, Cancelled
+/// @param surface some thousand triangles: all Green's functions are kept
 std::vector<Cones> find_cones(const mesh::Surface& surface, const ConeOptions& options, Execution& execution);
 
 /// Goes on from cones that were found on a coarser level of the surface, #V.

@@ -5,6 +5,7 @@
 
 #include "base/constants.h"
 #include "base/errors.h"
+#include "mesh/union_find.h"
 #include "solver/direct/sparse_cholesky.h"
 #include "tiling/cones/scale_form.h"
 
@@ -19,22 +20,6 @@ constexpr double kPullOfField = 0.1;  // with which the field is pulled level
 constexpr double kPrice = 12;
 constexpr double kRegularFrame = 1e-9;  // weight of a frame anywhere
 
-// A forest of vertices.
-class Chains {
- public:
-  explicit Chains(int count) : parent_(count) {
-    for (int v = 0; v < count; ++v) parent_[v] = v;
-  }
-  int root(int v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(int a, int b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
-
- private:
-  std::vector<int> parent_;
-};
-
 // Each vertex's patch between the lines, and on lines and on the boundary beside them -1 - v.
 std::vector<int> patches(const Net& net) {
   std::vector<int> patch(net.vertex_count(), 0);
@@ -45,12 +30,12 @@ std::vector<int> patches(const Net& net) {
   for (int v = 0; v < net.vertex_count(); ++v) {
     if (net.on_boundary[v] && net.hole[v] < 0) patch[v] = -1 - v;
   }
-  Chains chains(net.vertex_count());
+  mesh::UnionFind chains(net.vertex_count());
   for (int side = 0; side < net.side_count(); ++side) {
     if (patch[net.tail[side]] == 0 && patch[net.head[side]] == 0) chains.join(net.tail[side], net.head[side]);
   }
   for (int v = 0; v < net.vertex_count(); ++v) {
-    if (patch[v] == 0) patch[v] = chains.root(v);
+    if (patch[v] == 0) patch[v] = chains.lowest(v);
   }
   return patch;
 }
@@ -145,17 +130,17 @@ std::vector<int> long_lines(const mesh::Surface& surface, const std::vector<int>
   for (int side = 0; side < net.side_count(); ++side) {
     if (net.twin[side] < 0) is_line[net.edge[side]] = turning[net.hole[net.tail[side]]] <= kMostTurned * kTwoPi;
   }
-  Chains chains(net.vertex_count());
+  mesh::UnionFind chains(net.vertex_count());
   std::vector<double> length(net.vertex_count(), 0.0);
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
     if (is_line[e]) chains.join(surface.edges[e][0], surface.edges[e][1]);
   }
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
-    if (is_line[e]) length[chains.root(surface.edges[e][0])] += surface.edge_lengths[e];
+    if (is_line[e]) length[chains.lowest(surface.edges[e][0])] += surface.edge_lengths[e];
   }
   std::vector<int> edges;
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
-    if (is_line[e] && length[chains.root(surface.edges[e][0])] > kLong * std::sqrt(net.whole_area))
+    if (is_line[e] && length[chains.lowest(surface.edges[e][0])] > kLong * std::sqrt(net.whole_area))
       edges.push_back(static_cast<int>(e));
   }
   return edges;

@@ -19,9 +19,10 @@ using SparseComplex = Eigen::SparseMatrix<Complex, Eigen::RowMajor>;
 constexpr double kLeastScale = 0.05;      // of e^u, below which triangles weigh no more
 constexpr double kRegularMatrix = 1e-10;  // of the mean diagonal: vertices of triangles without area alone
 constexpr int kSizes = 9, kAngles = 25;
-constexpr Eigen::Index kColumns = 32;                   // solved for at once
-constexpr double kSpreadOfRest = 0.12;                  // of ln size, to either side
-constexpr double kOtherSize = 1;                        // price of (ln size)^2: larger sizes alone would round better
+constexpr int kSearched = 10, kSums = 32;  // targets for which nearer whole numbers are searched, partial sums for each
+constexpr Eigen::Index kColumns = 16;      // solved for at once
+constexpr double kSpreadOfRest = 0.06;     // of ln size, to either side
+constexpr double kOtherSize = 1;           // price of (ln size)^2: larger sizes alone would round better
 constexpr double kTurned = 6 * std::numbers::pi / 180;  // radians from level, to either side
 
 // A side of a triangle: y(b) turned less y(a) turned, the weight, and what it is to be for f = 1.
@@ -160,24 +161,36 @@ std::vector<NearestMap::Rounded> NearestMap::rounded(Complex factor, const Matri
   const linear::ReducedBasis reduced = linear::reduce(B_);
   const linear::Cholesky<MatrixXd> normal(B_.transpose() * B_);
   std::vector<Rounded> found;
+  const auto add = [&](Complex f, const auto& nearest) {
+    const VectorXd z0 = normal.solve(VectorXd(g * Eigen::Vector2d(f.real(), f.imag())));
+    const linear::IntegerVector z = nearest(B_ * z0);
+    const double ln_size = std::log(std::abs(f) / std::abs(factor));
+    const double error =
+        (B_ * (z0 - z.cast<double>())).squaredNorm() / (std::norm(f) * area_) + kOtherSize * ln_size * ln_size;
+    const auto known = std::ranges::find_if(found, [&](const Rounded& one) { return one.z == z; });
+    if (known == found.end())
+      found.push_back({error, f, z});
+    else if (error < known->error)
+      *known = {error, f, z};
+  };
   const int angles = turns_ ? kAngles : 1;
   for (int i = 0; i < kSizes; ++i) {
-    const double ln_size = kSpreadOfRest * (2.0 * i / (kSizes - 1) - 1), size = std::exp(ln_size);
+    const double size = std::exp(kSpreadOfRest * (2.0 * i / (kSizes - 1) - 1));
     for (int j = 0; j < angles; ++j) {
       const double turned = turns_ ? kTurned * (2.0 * j / (kAngles - 1) - 1) : 0;
-      const Complex f = factor * std::polar(size, turned);
-      const VectorXd z0 = normal.solve(VectorXd(g * Eigen::Vector2d(f.real(), f.imag())));
-      const linear::IntegerVector z = linear::nearest_plane(reduced, B_ * z0);
-      const double error =
-          (B_ * (z0 - z.cast<double>())).squaredNorm() / (std::norm(f) * area_) + kOtherSize * ln_size * ln_size;
-      const auto known = std::ranges::find_if(found, [&](const Rounded& one) { return one.z == z; });
-      if (known == found.end())
-        found.push_back({error, f, z});
-      else if (error < known->error)
-        *known = {error, f, z};
+      add(factor * std::polar(size, turned),
+          [&](const VectorXd& target) { return linear::nearest_plane(reduced, target); });
     }
   }
-  std::stable_sort(found.begin(), found.end(), [](const Rounded& a, const Rounded& b) { return a.error < b.error; });
+  const auto sort = [&] {
+    std::stable_sort(found.begin(), found.end(), [](const Rounded& a, const Rounded& b) { return a.error < b.error; });
+  };
+  sort();
+  // Along lines the size alone is free: the nearest plane finds what fits them exactly.
+  const int searched = turns_ ? std::min<int>(kSearched, static_cast<int>(found.size())) : 0;
+  for (int i = 0; i < searched; ++i)
+    add(found[i].factor, [&](const VectorXd& target) { return linear::nearest_of_planes(reduced, target, kSums); });
+  sort();
   return found;
 }
 

@@ -15,8 +15,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr std::size_t kExtrema = 80;  // at most
-
 using mesh::difference;
 using mesh::dot;
 using mesh::Point;
@@ -60,7 +58,7 @@ double within_turn(double angle, int k) {
 constexpr double kRegularLaplacian =
     1e-9;  // of the mean diagonal, added to a Laplacian that has constants in its kernel
 
-constexpr std::size_t kSolvedAtOnce = 64;  // candidates
+constexpr std::size_t kSolvedAtOnce = 32;  // candidates
 
 }  // namespace
 
@@ -75,40 +73,6 @@ double ConePlaces::squared_distance(int v, int w) const {
   double sum = 0;
   for (int i = 0; i < 3; ++i) sum += (points_[v][i] - points_[w][i]) * (points_[v][i] - points_[w][i]);
   return sum;
-}
-
-std::vector<int> ConePlaces::spread(const Eigen::VectorXd& function, int count) const {
-  std::vector<int> spread;
-  std::vector<double> highest(net_.vertex_count(), -kInfinity), lowest(net_.vertex_count(), kInfinity);
-  for (int side = 0; side < net_.side_count(); ++side) {
-    const double value = function[net_.head[side]];
-    highest[net_.tail[side]] = std::max(highest[net_.tail[side]], value);
-    lowest[net_.tail[side]] = std::min(lowest[net_.tail[side]], value);
-  }
-  for (int v = 0; v < net_.vertex_count(); ++v) {
-    if (is_place(v) && (function[v] >= highest[v] || function[v] <= lowest[v])) spread.push_back(v);
-  }
-  std::stable_sort(spread.begin(), spread.end(),
-                   [&](int a, int b) { return std::abs(function[a]) > std::abs(function[b]); });
-  if (spread.size() > kExtrema) spread.resize(kExtrema);
-  for (int v = 0; v < net_.vertex_count(); ++v) {
-    if (is_hole(v)) spread.push_back(v);
-  }
-  std::vector<double> distance(net_.vertex_count(), kInfinity);
-  int farthest = -1;
-  for (int v = 0; v < net_.vertex_count() && farthest < 0; ++v) {
-    if (is_place(v)) farthest = v;
-  }
-  for (int n = static_cast<int>(kExtrema); n < count && farthest >= 0; ++n) {
-    spread.push_back(farthest);
-    const int last = farthest;
-    farthest = -1;
-    for (int v = 0; v < net_.vertex_count(); ++v) {
-      distance[v] = std::min(distance[v], squared_distance(v, last));
-      if (is_place(v) && distance[v] > 0 && (farthest < 0 || distance[v] > distance[farthest])) farthest = v;
-    }
-  }
-  return spread;
 }
 
 std::vector<int> ConePlaces::within(int v, double squared) const {

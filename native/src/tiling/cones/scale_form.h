@@ -48,9 +48,8 @@ class ScaleForm {
   /// Takes candidates: ascending vertices. @param report is called before every few solutions
   void take(const std::vector<int>& places, const std::function<void()>& report);
 
-  int total() const { return total_; }                          ///< the sum of n
-  double unit() const { return unit_; }                         ///< a k-th turn
-  const Eigen::VectorXd& without_cones() const { return u0_; }  ///< #V, u for n = 0
+  int total() const { return total_; }   ///< the sum of n
+  double unit() const { return unit_; }  ///< a k-th turn
   double constant() const { return constant_; }
   const Eigen::MatrixXd& Q() const { return Q_; }
   const Eigen::VectorXd& b() const { return b_; }
@@ -122,9 +121,6 @@ class ConePlaces {
   bool is_place(int v) const;
   double squared_distance(int v, int w) const;
 
-  /// The vertices where a function is extreme, the most extreme ones; holes; and farthest points, with these `count` or
-  /// a few more. @param function #V
-  std::vector<int> spread(const Eigen::VectorXd& function, int count) const;
   /// Places whose squared distance is below this.
   std::vector<int> within(int v, double squared) const;
   /// For each of these vertices, those of them that are nearer than this, ascending; holes are near to none.

@@ -9,9 +9,10 @@
 #include "base/constants.h"
 #include "base/errors.h"
 #include "base/execution.h"
+#include "tiling/cones/carried_map.h"
 #include "tiling/cones/net.h"
 #include "tiling/cones/scale_form.h"
-#include "tiling/greens/pole_basis.h"
+#include "tiling/cones/upright.h"
 #include "uv/evening.h"
 
 namespace holomorph::tiling {
@@ -68,93 +69,189 @@ std::vector<int> with_holes(const Net& net, int k, const std::vector<int>& chose
   return missing;
 }
 
-constexpr int kFewTriangles = 4000, kMoreTriangles = 20'000;  // of the levels on which cones are searched for
-constexpr int kCompared = 5;                                  // of the cones found on the fewer
-constexpr int kMostLevels = 4;                                // of half the tiles each, for which cones are searched
-constexpr int kFurtherApart = 2;                              // levels, where triangles are flipped
-constexpr double kHelps = 0.5;                                // of the wrong area: else no more is tried
+constexpr int kTries = 2, kLinedTries = 4;  // of the nearest whole numbers
+constexpr int kMostLevels = 4;              // of half the tiles each, for which cones are searched
+constexpr int kFurtherApart = 2;            // levels, where triangles are flipped
+constexpr double kHelps = 0.5;              // of the wrong area: else no more is tried
 
-// Cones on a surface, from those of a level of it: #V.
-std::vector<int> carried(const mesh::Surface& surface, const tiling::CoarseLevel& level, const Cones& cones) {
+// Steps of evening on all triangles, once the level's map is carried there: what is left is near by. On many triangles
+// each step is light, as what it is preconditioned by would take longer than all else.
+constexpr int kFineSteps = 4, kLightSteps = 16, kLightTriangles = 60'000;
+
+// Cones of a level on another one, or on the surface itself. @param vertex of the level: there
+std::vector<int> moved(const mesh::Surface& surface, const std::vector<int>& vertex, const std::vector<int>& cones) {
   const Net net(surface);
   std::vector<int> missing(surface.vertex_count, 0);
-  for (std::size_t v = 0; v < cones.missing.size(); ++v) {
-    if (cones.missing[v] != 0) missing[place_of(net, level.vertex[v])] += cones.missing[v];
+  for (std::size_t v = 0; v < cones.size(); ++v) {
+    if (cones[v] != 0) missing[place_of(net, vertex[v])] += cones[v];
   }
   return missing;
 }
 
-// The cones with the least strain among those of least cost of many starts on few triangles, then a short search on
-// more.
-std::vector<int> cones_of(const std::shared_ptr<const mesh::Surface>& surface, const ConeOptions& wanted,
-                          Execution& execution) {
-  execution.stage("cones", 0, 0.8);
-  const Execution::Within within(execution);
-  execution.stage("cones", 0, 1);
-  const tiling::CoarseLevel fine = tiling::coarse_level(surface, execution, kMoreTriangles);
-  const tiling::CoarseLevel coarse = tiling::coarse_level(fine.surface, execution, kFewTriangles);
-  std::vector<Cones> found = find_cones(*coarse.surface, wanted, execution);
-  found.resize(std::min<std::size_t>(found.size(), kCompared));
-  const Cones* best = nullptr;
-  std::pair<double, double> least;
-  for (const Cones& cones : found) {
-    execution.report(1);
-    const PlacedCones placed(coarse.surface, wanted, cones.missing, execution);
-    const std::pair<double, double> strain = placed.badness(wanted.tiles, uv::kUsualEvenness, execution);
-    if (best == nullptr || strain < least) least = strain, best = &cones;
+// What evening keeps of a map that was carried. Without cones one vertex stays, as the whole map may be moved.
+uv::Kept kept_of(const mesh::Surface& surface, const TurnLattice& lattice, const LatticeMap& map) {
+  uv::Kept kept;
+  kept.turns.resize(surface.triangles.size());
+  for (std::size_t side = 0; side < map.at.size(); ++side)
+    kept.turns[side / 3][side % 3] = turned_by(lattice, map.at[side].turn);
+  kept.unknowns.number.assign(2 * static_cast<std::size_t>(surface.vertex_count), -1);
+  kept.unknowns.sign.assign(kept.unknowns.number.size(), 1);
+  std::vector<char> stays(surface.vertex_count, map.cones.empty() ? 0 : 1);
+  for (const mesh::Triple& t : surface.triangles) {
+    for (const int v : t) stays[v] = 0;
   }
-  return carried(*surface, fine,
-                 refined_cones(*fine.surface, carried(*fine.surface, coarse, *best), wanted, execution));
+  for (const auto& [v, cone] : map.cones) stays[v] = 1;
+  if (map.cones.empty()) stays[surface.triangles[0][0]] = 1;
+  for (int v = 0; v < surface.vertex_count; ++v) {
+    if (stays[v]) {
+      kept.u.push_back(v);
+      kept.v.push_back(v);
+    } else {
+      for (int i = 0; i < 2; ++i) kept.unknowns.number[2 * v + i] = kept.unknowns.count++;
+    }
+  }
+  return kept;
 }
 
 }  // namespace
 
 TurnedMaps::TurnedMaps(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, Lines lines,
-                       std::vector<int> chosen)
-    : surface_(std::move(surface)), options_(options), lines_(std::move(lines)), chosen_(std::move(chosen)) {
+                       std::vector<int> chosen, std::shared_ptr<const Levels> levels)
+    : surface_(std::move(surface)),
+      options_(options),
+      lines_(std::move(lines)),
+      chosen_(std::move(chosen)),
+      levels_(std::move(levels)) {
   if (surface_->intrinsic()) throw TopologyError("a turned map needs positions: the surface has edge lengths alone");
 }
 
 TurnedMaps::~TurnedMaps() = default;
 
-const PlacedCones& TurnedMaps::placed(int level, Execution& execution) {
-  std::unique_ptr<const PlacedCones>& found = placed_[level];
+void TurnedMaps::begin(Execution& execution) {
+  if (level_.surface || !lines_.edges.empty()) return;
+  std::vector<int> kept;
+  for (int v = 0; v < std::ssize(chosen_); ++v) {
+    if (chosen_[v] != 0) kept.push_back(v);
+  }
+  if (!levels_ || !kept.empty()) levels_ = std::make_shared<const Levels>(surface_, execution, std::move(kept));
+  level_ = levels_->level(kLevelTriangles, execution);
+  is_carried_ = !level_.is_whole(*surface_) && levels_->has_triangles();
+}
+
+// Those of least strain and price that are found on few triangles, then a short search on the level of the map.
+std::vector<int> TurnedMaps::cones_of(const ConeOptions& wanted, Execution& execution) {
+  execution.stage("cones", 0, 0.8);
+  const Execution::Within within(execution);
+  execution.stage("cones", 0, 1);
+  const CoarseLevel coarse = levels_->level(kFewTriangles, execution);
+  const std::vector<Cones> found = find_cones(*coarse.surface, wanted, execution);
+  const Cones* best = &found[0];
+  std::pair<double, double> least{kInfinity, 0};
+  for (std::size_t i = 0; i < found.size() && found.size() > 1; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(found.size());
+    execution.part(part, part);
+    const Execution::Within one(execution);
+    execution.report(0);
+    const PlacedCones placed(coarse.surface, wanted, found[i].missing, execution);
+    std::pair<double, double> bad = placed.best_map(wanted.tiles, uv::kUsualEvenness, 1, execution).bad;
+    bad.second += found[i].price;
+    if (bad < least) least = bad, best = &found[i];
+  }
+  std::vector<int> vertex = coarse.vertex;
+  for (int& v : vertex) v = level_.collapsed[v];
+  const std::vector<int> begun = moved(*level_.surface, vertex, best->missing);
+  std::vector<int> missing = refined_cones(*level_.surface, begun, wanted, execution).missing;
+  return is_carried_ ? missing : moved(*surface_, level_.vertex, missing);
+}
+
+const PlacedCones& TurnedMaps::placed(int far, Execution& execution) {
+  std::unique_ptr<const PlacedCones>& found = placed_[far];
   if (!found) {
     ConeOptions wanted = options_;
-    wanted.tiles *= std::exp2(-level);
-    if (!chosen_.empty()) {
-      std::vector<int> missing = with_holes(Net(*surface_), wanted.k, chosen_, execution);
-      found = std::make_unique<PlacedCones>(surface_, wanted, std::move(missing), execution);
-    } else if (lines_.edges.empty()) {
-      found = std::make_unique<PlacedCones>(surface_, wanted, cones_of(surface_, wanted, execution), execution);
-    } else {
+    wanted.tiles *= std::exp2(-far);
+    if (!lines_.edges.empty()) {
       found = std::make_unique<PlacedCones>(surface_, wanted, lines_, execution);
+    } else {
+      std::vector<int> missing;
+      if (chosen_.empty()) {
+        missing = cones_of(wanted, execution);
+      } else {
+        const Net net(*made_on());
+        missing.assign(net.vertex_count(), 0);
+        for (int v = 0; v < std::ssize(chosen_); ++v) {
+          if (chosen_[v] != 0) missing[is_carried_ ? level_.collapsed[v] : v] = chosen_[v];
+        }
+        missing = with_holes(net, wanted.k, missing, execution);
+      }
+      found = std::make_unique<PlacedCones>(made_on(), wanted, std::move(missing), execution);
     }
   }
   return *found;
 }
 
+LatticeMap TurnedMaps::on_surface(const LatticeMap& map, double evenness, Execution& execution) const {
+  const TurnLattice lattice(options_.k);
+  LatticeMap result = carried_map(*surface_, *levels_, level_, lattice, map, execution);
+  join_polygons(*surface_, lattice, result);
+  if (evenness == 0) return result;
+  const uv::Kept kept = kept_of(*surface_, lattice, result);
+  const bool is_large = static_cast<int>(surface_->triangles.size()) > kLightTriangles;
+  const uv::UvArray delta =
+      uv::evened(*surface_, in_plane(lattice, corner_coordinates(*surface_, lattice, result)), kept, evenness,
+                 execution, is_large ? uv::kDiagonal : "auto", is_large ? kLightSteps : kFineSteps);
+  for (int v = 0; v < surface_->vertex_count; ++v) result.y[v] += Complex(delta(v, 0), delta(v, 1));
+  return result;
+}
+
+// Turns the frames of polygons until v runs up on most.
+void TurnedMaps::turn_upright(LatticeMap& map) const {
+  const TurnLattice lattice(options_.k);
+  const Net net(*surface_);
+  std::vector<int> turn(surface_->edges.size(), 0);
+  for (const Jump& jump : jumps_of(*surface_, lattice, map)) turn[jump.edge] = jump.turn;
+  const uv::UvArray laid = in_plane(lattice, corner_coordinates(*surface_, lattice, map));
+  turn_triangles(lattice, upright_turns(*surface_, net, laid, lattice.k, *options_.along, turn), map);
+}
+
 TurnedMap TurnedMaps::turned_map(double tiles, double evenness, Execution& execution) {
   const std::lock_guard lock(one_at_a_time_);
+  begin(execution);
   const double times = options_.tiles / tiles;
   const bool are_chosen = !chosen_.empty();
   const int first = are_chosen ? 0 : std::clamp(static_cast<int>(std::lround(std::log2(times))), 0, kMostLevels);
   const int last = first + (are_chosen ? 0 : kFurtherApart);
   PlacedCones::Judged best;
   const PlacedCones* winner = nullptr;
-  const Effort effort(*surface_);
   for (int level = first; level <= last; ++level) {
     const PlacedCones& tried = placed(level, execution);
     if (winner && tried.missing() == winner->missing()) continue;
-    PlacedCones::Judged other = tried.best_map(tiles, evenness, effort, execution);
-    const bool helps = other.bad.first < kHelps * best.bad.first, is_last = other.is_last;
+    PlacedCones::Judged other = tried.best_map(tiles, evenness, lines_.edges.empty() ? kTries : kLinedTries, execution);
+    const bool helps = other.bad.first < kHelps * best.bad.first;
     if (other.bad < best.bad) best = std::move(other), winner = &tried;
-    if (!helps || is_last) break;
+    if (!helps || best.bad.first == 0) break;
   }
+  TurnedMap result;
+  if (!winner) return result;
+  const TurnLattice& lattice = winner->lattice();
+  result.before = uv::quality(*made_on(), best.before, execution.workers());
+  LatticeMap map = is_carried_ ? on_surface(best.map, evenness, execution) : std::move(best.map);
   // Sixth turns are exact to rounding alone: the fewer there are, the better.
-  if (winner && options_.along && options_.k != 6) winner->turn_upright(best.map, *options_.along);
+  if (options_.along && options_.k != 6) turn_upright(map);
+  result.uv = in_plane(lattice, corner_coordinates(*surface_, lattice, map));
+  result.jumps = jumps_of(*surface_, lattice, map);
+  const Net net(*made_on());
+  std::vector<std::pair<int, int>> cones;
+  for (int v = 0; v < net.vertex_count(); ++v) {
+    const int missing = winner->missing()[v];
+    if (missing != 0 && !net.on_boundary[v]) cones.emplace_back(is_carried_ ? level_.vertex[v] : v, missing);
+  }
+  std::ranges::sort(cones);
+  for (const auto& [v, missing] : cones) {
+    result.cones.push_back(v);
+    result.missing.push_back(missing);
+  }
   execution.finish();
-  return std::move(best.map);
+  return result;
 }
 
 }  // namespace holomorph::tiling

@@ -8,17 +8,28 @@
 #include <vector>
 
 #include "tiling/cones/placed_cones.h"
+#include "tiling/levels.h"
+#include "uv/quality.h"
 
 namespace holomorph::tiling {
 
-/// The turned maps of a surface. Cones are searched for when a map is made, and kept for others with about as many
+struct TurnedMap {
+  uv::UvArray uv;            ///< #C x 2, in the plane
+  uv::Quality before;        ///< before it was evened, of the level that it was made on
+  std::vector<Jump> jumps;   ///< of the edges across which the UVs jump
+  std::vector<int> cones;    ///< vertices
+  std::vector<int> missing;  ///< of each cone: k-th turns that are missing around it
+};
+
+/// The turned maps of a surface, made on a level of it and carried to all its triangles, but where it has lines or
+/// cones are chosen. Cones are searched for when a map is made, and kept for others with about as many
 /// tiles.
 class TurnedMaps {
  public:
   /// @param chosen #V, k-th turns that are missing around the cones; empty where these are searched for.
-  /// @throws TopologyError for a surface without positions
+  /// @param levels of the surface; null: its own. @throws TopologyError for a surface without positions
   TurnedMaps(std::shared_ptr<const mesh::Surface> surface, const ConeOptions& options, Lines lines = {},
-             std::vector<int> chosen = {});
+             std::vector<int> chosen = {}, std::shared_ptr<const Levels> levels = nullptr);
   ~TurnedMaps();
 
   const mesh::Surface& surface() const { return *surface_; }
@@ -29,12 +40,20 @@ class TurnedMaps {
   TurnedMap turned_map(double tiles, double evenness, Execution& execution);
 
  private:
-  const PlacedCones& placed(int level, Execution& execution);
+  const PlacedCones& placed(int far, Execution& execution);
+  std::vector<int> cones_of(const ConeOptions& wanted, Execution& execution);
+  void begin(Execution& execution);
+  const std::shared_ptr<const mesh::Surface>& made_on() const { return is_carried_ ? level_.surface : surface_; }
+  LatticeMap on_surface(const LatticeMap& map, double evenness, Execution& execution) const;
+  void turn_upright(LatticeMap& map) const;
 
   std::shared_ptr<const mesh::Surface> surface_;
   ConeOptions options_;
   Lines lines_;
   std::vector<int> chosen_;
+  std::shared_ptr<const Levels> levels_;
+  CoarseLevel level_;                                         // on which cones are searched for
+  bool is_carried_ = false;                                   // whether maps are made there, too
   std::map<int, std::unique_ptr<const PlacedCones>> placed_;  // for half the tiles each
   std::mutex one_at_a_time_;
 };

@@ -46,14 +46,6 @@ bool is_net(const std::vector<mesh::Pair>& ends) {
   return static_cast<double>(ends.size()) > kMostOfNet * static_cast<double>(meetings(ends).size());
 }
 
-// Coordinates of the hexagonal lattice become those of the plane.
-void place_hexagons(uv::UvArray& uv) {
-  for (Eigen::Index c = 0; c < uv.rows(); ++c) {
-    const double v = uv(c, 1);
-    uv.row(c) << uv(c, 0) + 0.5 * v, 0.5 * std::numbers::sqrt3 * v;
-  }
-}
-
 void set_added(const uv::Quality& conformal, TurnedTiling& result) {
   double weight = 0, angles = 0, squares = 0;
   for (std::size_t t = 0; t < conformal.angle.size(); ++t) {
@@ -69,7 +61,7 @@ void set_added(const uv::Quality& conformal, TurnedTiling& result) {
 }
 
 // Finds the jumps of a map in coordinates of the square lattice, by edges. @param uv #C x 2
-std::vector<Jump> jumps_of(const mesh::Surface& surface, const uv::UvArray& uv, int turns) {
+std::vector<Jump> jumps_in_plane(const mesh::Surface& surface, const uv::UvArray& uv, int turns) {
   // The UVs at the lower and the higher end of an edge, in the triangle on its left and in that on its right: the left
   // one runs along it, from the lower vertex on.
   struct Sides {
@@ -125,13 +117,13 @@ Half::Half(const mesh::Surface& whole, uv::Up up, Execution& execution) : whole_
 TurnedMap Half::unfolded(const TurnedMap& of_half, int turns) const {
   TurnedMap result;
   result.uv = unfolded(of_half.uv);
-  result.before = unfolded(of_half.before);
+  result.before = of_half.before;
   for (const int cone : of_half.cones) result.cones.push_back(vertices_[cone]);
   for (std::size_t k = 0; k < of_half.cones.size(); ++k) result.cones.push_back(mirror_.vertices[result.cones[k]]);
   result.missing = of_half.missing;
   result.missing.insert(result.missing.end(), of_half.missing.begin(), of_half.missing.end());
   add_cones_in_plane(turns, result);
-  result.jumps = jumps_of(whole_, result.uv, turns);
+  result.jumps = jumps_in_plane(whole_, result.uv, turns);
   return result;
 }
 
@@ -184,24 +176,19 @@ TurnedTiler::TurnedTiler(std::shared_ptr<const mesh::Surface> surface, const Til
   if (lines.empty()) options_.rows = Rows::kNone;
   maps_.emplace(half_ ? half_->surface() : surface_,
                 ConeOptions{.k = options_.turns, .along = options_.along, .tiles = usual_tiles_ / (half_ ? 2 : 1)},
-                Lines{std::move(lines), are_whole}, options_.chosen);
+                Lines{std::move(lines), are_whole}, options_.chosen, half_ ? nullptr : options_.levels);
 }
 
 TurnedTiling TurnedTiler::tile(double tiles, double evenness, Execution& execution) {
   TurnedTiling result{held(maps_).turned_map(tiles / (half_ ? 2 : 1), evenness, execution), options_.rows, {}, 1, 0};
   if (half_) result.map = half_->unfolded(result.map, options_.turns);
-  if (options_.turns == 6) {
-    place_hexagons(result.map.uv);
-    place_hexagons(result.map.before);
-  }
   Workers& workers = execution.workers();
   result.quality = uv::quality(*surface_, result.map.uv, workers);
   if (options_.along && !options_.along->is_of_u)
     result.quality.direction = uv::direction(*surface_, result.map.uv, options_.up, options_.turns, workers);
   if (evenness > 0) {
-    const uv::Quality before = uv::quality(*surface_, result.map.before, workers);
-    uv::set_evened_from(result.quality, before, evenness);
-    set_added(before, result);
+    uv::set_evened_from(result.quality, result.map.before, evenness);
+    set_added(result.map.before, result);
   } else {
     set_added(result.quality, result);
   }

@@ -25,7 +25,7 @@ class Half {
   const std::shared_ptr<const mesh::Surface>& surface() const { return surface_; }
   const std::vector<int>& lines() const { return lines_; }  ///< its edges in the plane
 
-  /// Makes it a map of the whole, #C x 2 in coordinates of the square lattice. A row that ends at u = c in the plane
+  /// Makes it a map of the whole, with the square lattice. A row that ends at u = c in the plane
   /// goes on when it is moved by 2c, one that ends at v = c when it is turned by half as well. Cones are those of the
   /// half, twice, and those in the plane.
   TurnedMap unfolded(const TurnedMap& of_half, int turns) const;
@@ -53,10 +53,11 @@ struct TilerOptions {
   Rows rows = Rows::kNone;
   std::vector<mesh::Pair> marked;  ///< vertices of edges that are lines besides those that are found
   std::vector<int> chosen;         ///< #V, k-th turns that are missing around cones; empty where these are searched for
+  std::shared_ptr<const Levels> levels = nullptr;  ///< of the surface; null: its own
 };
 
 struct TurnedTiling {
-  TurnedMap map;  ///< its UVs in the plane: the unit square is one tile, of the hexagonal lattice for sixth turns
+  TurnedMap map;  ///< the unit square is one tile, of the hexagonal lattice for sixth turns
   Rows rows = Rows::kNone;
   uv::Quality quality;
   /// Before the map is evened it is conformal, but for its whole numbers and the size of triangles. The mean, then,

@@ -2,12 +2,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
+#include <tuple>
 #include <utility>
 
 #include "base/constants.h"
+#include "mesh/union_find.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -17,8 +21,7 @@ constexpr double kOnItsHead = 0.5;  // beside 1 for what lies on its side, as in
 // The price of an edge that turns and is as long as the root of the area, where it is smooth. It falls to the part
 // where the edge bends by the angle. Little, as no texture that the map is made for shows where it turns.
 constexpr double kSeam = 0.02, kSeenAtHard = 0.06, kHides = std::numbers::pi / 3;
-constexpr int kUprightRounds =
-    30;  // at most, and looks at each polygon or region in one: they end where nothing is gained
+constexpr int kLooks = 30;  // at each node, at most: they end where nothing is gained
 constexpr double kLessTurned = 1e-9;
 
 // What is minded of a texture turned by this angle from up.
@@ -56,170 +59,173 @@ double bend(const mesh::Surface& surface, int one, int other) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// An edge between two polygons: what turns across it, but for their own turns, from the one to the other.
+// What turns across edges between two nodes, polygons or regions that turn as one, from the one to the other.
 struct Link {
   int one, other, turn;
-  double price;
+  double price;  // where it is not 0
 };
 
-class Turner {
- public:
-  Turner(const mesh::Surface& surface, const Net& net, const uv::UvArray& in_plane, int k, const Along& along,
-         const std::vector<int>& turn)
-      : k_(k), count_(static_cast<int>(surface.polygons.face_offsets.size()) - 1), minded_(count_ * k, 0.0) {
-    find_minded(surface, net, in_plane, along);
-    find_links(surface, net, turn);
-  }
+struct Graph {
+  int k;
+  std::vector<double> minded;  // #nodes x k, when a node is turned by so much
+  std::vector<Link> links;
 
-  std::vector<int> best() {
-    std::vector<int> as_given = lowered(std::vector<int>(count_, 0)), from_up = lowered(upright());
-    return cost(from_up) < cost(as_given) ? from_up : as_given;
+  int count() const { return static_cast<int>(minded.size()) / k; }
+  int reduced(int r) const { return ((r % k) + k) % k; }
+  int left(const Link& link, const std::vector<int>& by) const {
+    return reduced(link.turn + by[link.other] - by[link.one]);
   }
-
- private:
-  int reduced(int r) const { return ((r % k_) + k_) % k_; }
-  int left(const Link& link, const std::vector<int>& s) const {
-    return reduced(link.turn + s[link.other] - s[link.one]);
-  }
-
-  void find_minded(const mesh::Surface& surface, const Net& net, const uv::UvArray& in_plane, const Along& along) {
-    for_steep(surface, net, in_plane, along, [&](int t, double angle) {
-      for (int s = 0; s < k_; ++s) {
-        minded_[surface.triangle_faces[t] * k_ + s] += net.area[t] / net.whole_area * minded(angle + kTwoPi / k_ * s);
-      }
-    });
-  }
-
-  void find_links(const mesh::Surface& surface, const Net& net, const std::vector<int>& turn) {
-    of_polygon_.resize(count_);
-    for (int side = 0; side < net.side_count(); ++side) {
-      const int back = net.twin[side];
-      if (back < side) continue;
-      const int one = surface.triangle_faces[side / 3], other = surface.triangle_faces[back / 3];
-      if (one == other) continue;
-      of_polygon_[one].push_back(static_cast<int>(links_.size()));
-      of_polygon_[other].push_back(static_cast<int>(links_.size()));
-      const double seen = std::max(1 - bend(surface, side / 3, back / 3) / kHides, kSeenAtHard);
-      const double length = std::abs(net.along[side]) / std::sqrt(net.whole_area);
-      links_.push_back({one, other, std::max(turn[side], 0), kSeam * length * seen});
-    }
-  }
-
-  double cost(const std::vector<int>& s) const {
+  double cost(const std::vector<int>& by) const {
     double sum = 0;
-    for (int p = 0; p < count_; ++p) sum += minded_[p * k_ + s[p]];
-    for (const Link& link : links_) sum += left(link, s) != 0 ? link.price : 0;
+    for (int p = 0; p < count(); ++p) sum += minded[p * k + by[p]];
+    for (const Link& link : links) sum += left(link, by) != 0 ? link.price : 0;
     return sum;
   }
-
-  // Each steep polygon as is best for it alone; the others continue their neighbours.
-  std::vector<int> upright() const {
-    std::vector<int> s(count_, -1), queue;
-    for (int p = 0; p < count_; ++p) {
-      const auto first = minded_.begin() + p * k_, last = first + k_;
-      const auto least = std::min_element(first, last);
-      if (!(*std::max_element(first, last) > *least)) continue;
-      s[p] = static_cast<int>(least - first);
-      queue.push_back(p);
-    }
-    for (std::size_t i = 0; i < queue.size(); ++i) {
-      for (const int l : of_polygon_[queue[i]]) {
-        const Link& link = links_[l];
-        const bool is_one = link.one == queue[i];
-        const int next = is_one ? link.other : link.one;
-        if (s[next] >= 0) continue;
-        s[next] = reduced(is_one ? s[link.one] - link.turn : s[link.other] + link.turn);
-        queue.push_back(next);
-      }
-    }
-    for (int& own : s) own = std::max(own, 0);
-    return s;
+  // Finds the links of each node.
+  void index() {
+    first.assign(count() + 1, 0);
+    for (const Link& link : links) ++first[link.one + 1], ++first[link.other + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    of_node.resize(2 * links.size());
+    std::vector<int> next(first.begin(), first.end() - 1);
+    for (int l = 0; l < std::ssize(links); ++l) of_node[next[links[l].one]++] = of_node[next[links[l].other]++] = l;
+  }
+  std::span<const int> links_of(int node) const {
+    return std::span(of_node).subspan(first[node], first[node + 1] - first[node]);
   }
 
-  std::vector<int> lowered(std::vector<int> s) const {
-    for (int round = 0; round < kUprightRounds; ++round) {
-      std::vector<int> alone(count_);
-      for (int p = 0; p < count_; ++p) alone[p] = p;
-      const bool moved = turn_regions(alone, count_, s);
-      int count = 0;
-      const std::vector<int> region = regions(s, count);
-      if (!turn_regions(region, count, s) && !moved) break;
-    }
-    return s;
-  }
-
-  // #polygons, those that are joined by edges that do not turn.
-  std::vector<int> regions(const std::vector<int>& s, int& count) const {
-    std::vector<int> region(count_, -1), queue;
-    count = 0;
-    for (int p = 0; p < count_; ++p) {
-      if (region[p] >= 0) continue;
-      region[p] = count++;
-      queue.assign(1, p);
-      while (!queue.empty()) {
-        const int own = queue.back();
-        queue.pop_back();
-        for (const int l : of_polygon_[own]) {
-          const Link& link = links_[l];
-          const int next = link.one == own ? link.other : link.one;
-          if (region[next] >= 0 || left(link, s) != 0) continue;
-          region[next] = region[own];
-          queue.push_back(next);
-        }
-      }
-    }
-    return region;
-  }
-
-  // Turns regions one after the other while that makes one better; then those beside it are looked at again.
-  // @return whether there was one
-  bool turn_regions(const std::vector<int>& region, int count, std::vector<int>& s) const {
-    std::vector<double> minded(static_cast<std::size_t>(count) * k_, 0.0);
-    for (int p = 0; p < count_; ++p) {
-      for (int r = 0; r < k_; ++r) minded[region[p] * k_ + r] += minded_[p * k_ + reduced(s[p] + r)];
-    }
-    std::vector<std::vector<int>> of_region(count);  // links to others
-    for (int l = 0; l < std::ssize(links_); ++l) {
-      const int one = region[links_[l].one], other = region[links_[l].other];
-      if (one != other) of_region[one].push_back(l), of_region[other].push_back(l);
-    }
-    std::vector<int> by(count, 0), queue(count);
-    std::iota(queue.begin(), queue.end(), 0);
-    std::vector<char> waits(count, 1);
-    const std::size_t most = static_cast<std::size_t>(kUprightRounds) * count;
-    for (std::size_t i = 0; i < queue.size() && i < most; ++i) {
-      const int own = queue[i];
-      waits[own] = 0;
-      // What is minded, less the prices of the links that do not turn then.
-      std::vector<double> price(minded.begin() + own * k_, minded.begin() + (own + 1) * k_);
-      for (const int l : of_region[own]) {
-        const Link& link = links_[l];
-        const int one = region[link.one], other = region[link.other], now = left(link, s);
-        price[one == own ? reduced(now + by[other]) : reduced(by[one] - now)] -= link.price;
-      }
-      const int best = static_cast<int>(std::ranges::min_element(price) - price.begin());
-      if (!(price[best] < price[by[own]] - kLessTurned)) continue;
-      by[own] = best;
-      for (const int l : of_region[own]) {
-        const int one = region[links_[l].one], next = one == own ? region[links_[l].other] : one;
-        if (!std::exchange(waits[next], 1)) queue.push_back(next);
-      }
-    }
-    for (int p = 0; p < count_; ++p) s[p] = reduced(s[p] + by[region[p]]);
-    return std::ranges::any_of(by, [](int r) { return r != 0; });
-  }
-
-  int k_, count_;
-  std::vector<double> minded_;  // #polygons x k
-  std::vector<Link> links_;
-  std::vector<std::vector<int>> of_polygon_;  // links
+  std::vector<int> first = {}, of_node = {};
 };
+
+Graph polygons_of(const mesh::Surface& surface, const Net& net, const uv::UvArray& in_plane, int k, const Along& along,
+                  const std::vector<int>& turn) {
+  const auto count = surface.polygons.face_offsets.size() - 1;
+  Graph result{k, std::vector<double>(count * k, 0.0), {}};
+  for_steep(surface, net, in_plane, along, [&](int t, double angle) {
+    for (int s = 0; s < k; ++s) {
+      result.minded[surface.triangle_faces[t] * k + s] += net.area[t] / net.whole_area * minded(angle + kTwoPi / k * s);
+    }
+  });
+  for (int side = 0; side < net.side_count(); ++side) {
+    const int back = net.twin[side];
+    if (back < side) continue;
+    const int one = surface.triangle_faces[side / 3], other = surface.triangle_faces[back / 3];
+    if (one == other) continue;
+    const double seen = std::max(1 - bend(surface, side / 3, back / 3) / kHides, kSeenAtHard);
+    const double length = std::abs(net.along[side]) / std::sqrt(net.whole_area);
+    const bool is_left = net.tail[side] == surface.edges[net.edge[side]][0];
+    const int own = turn[net.edge[side]];
+    result.links.push_back({one, other, is_left ? own : result.reduced(-own), kSeam * length * seen});
+  }
+  result.index();
+  return result;
+}
+
+// Each steep node as is best for it alone; the others continue their neighbours.
+std::vector<int> upright(const Graph& graph) {
+  std::vector<int> s(graph.count(), -1), queue;
+  for (int p = 0; p < graph.count(); ++p) {
+    const auto first = graph.minded.begin() + p * graph.k, last = first + graph.k;
+    const auto least = std::min_element(first, last);
+    if (!(*std::max_element(first, last) > *least)) continue;
+    s[p] = static_cast<int>(least - first);
+    queue.push_back(p);
+  }
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    for (const int l : graph.links_of(queue[i])) {
+      const Link& link = graph.links[l];
+      const bool is_one = link.one == queue[i];
+      const int next = is_one ? link.other : link.one;
+      if (s[next] >= 0) continue;
+      s[next] = graph.reduced(is_one ? s[link.one] - link.turn : s[link.other] + link.turn);
+      queue.push_back(next);
+    }
+  }
+  for (int& own : s) own = std::max(own, 0);
+  return s;
+}
+
+// Turns nodes one after the other while that makes one better; then those beside it are looked at again.
+void turn_nodes(const Graph& graph, std::vector<int>& by) {
+  std::vector<int> queue(graph.count());
+  std::iota(queue.begin(), queue.end(), 0);
+  std::vector<char> waits(graph.count(), 1);
+  const std::size_t most = static_cast<std::size_t>(kLooks) * graph.count();
+  for (std::size_t i = 0; i < queue.size() && i < most; ++i) {
+    const int own = queue[i];
+    waits[own] = 0;
+    // What is minded, less the prices of the links that do not turn then.
+    std::array<double, 6> price{};
+    for (int r = 0; r < graph.k; ++r) price[r] = graph.minded[own * graph.k + r];
+    for (const int l : graph.links_of(own)) {
+      const Link& link = graph.links[l];
+      price[link.one == own ? graph.reduced(link.turn + by[link.other]) : graph.reduced(by[link.one] - link.turn)] -=
+          link.price;
+    }
+    const int best = static_cast<int>(std::min_element(price.begin(), price.begin() + graph.k) - price.begin());
+    if (!(price[best] < price[by[own]] - kLessTurned)) continue;
+    by[own] = best;
+    for (const int l : graph.links_of(own)) {
+      const int next = graph.links[l].one == own ? graph.links[l].other : graph.links[l].one;
+      if (!std::exchange(waits[next], 1)) queue.push_back(next);
+    }
+  }
+}
+
+// The graph of nodes that are joined by links that do not turn, as they are turned. @param region out: #nodes
+Graph of_regions(const Graph& graph, const std::vector<int>& by, std::vector<int>& region) {
+  mesh::UnionFind sets(graph.count());
+  for (const Link& link : graph.links) {
+    if (graph.left(link, by) == 0) sets.join(link.one, link.other);
+  }
+  region.resize(graph.count());
+  int count = 0;
+  for (int p = 0; p < graph.count(); ++p) region[p] = sets.lowest(p) == p ? count++ : region[sets.lowest(p)];
+  Graph result{graph.k, std::vector<double>(static_cast<std::size_t>(count) * graph.k, 0.0), {}};
+  for (int p = 0; p < graph.count(); ++p) {
+    for (int r = 0; r < graph.k; ++r)
+      result.minded[region[p] * graph.k + r] += graph.minded[p * graph.k + graph.reduced(by[p] + r)];
+  }
+  for (const Link& link : graph.links) {
+    Link own{region[link.one], region[link.other], graph.left(link, by), link.price};
+    if (own.one == own.other) continue;
+    if (own.one > own.other) own = {own.other, own.one, graph.reduced(-own.turn), own.price};
+    result.links.push_back(own);
+  }
+  std::ranges::stable_sort(result.links, {}, [](const Link& a) { return std::tuple(a.one, a.other, a.turn); });
+  std::size_t last = 0;  // those that turn alike become one
+  for (std::size_t l = 1; l < result.links.size(); ++l) {
+    const Link &link = result.links[l], &before = result.links[last];
+    if (std::tuple(link.one, link.other, link.turn) == std::tuple(before.one, before.other, before.turn))
+      result.links[last].price += link.price;
+    else
+      result.links[++last] = link;
+  }
+  if (!result.links.empty()) result.links.resize(last + 1);
+  result.index();
+  return result;
+}
+
+// Turns nodes, then the regions that these make, and the regions of these, then nodes once more.
+void turn_regions(const Graph& graph, std::vector<int>& by) {
+  turn_nodes(graph, by);
+  std::vector<int> region;
+  const Graph regions = of_regions(graph, by, region);
+  if (regions.count() == graph.count()) return;
+  std::vector<int> more(regions.count(), 0);
+  turn_regions(regions, more);
+  for (int p = 0; p < graph.count(); ++p) by[p] = graph.reduced(by[p] + more[region[p]]);
+  turn_nodes(graph, by);
+}
 
 }  // namespace
 
 std::vector<int> upright_turns(const mesh::Surface& surface, const Net& net, const uv::UvArray& in_plane, int k,
                                const Along& along, const std::vector<int>& turn) {
-  const std::vector<int> of_polygon = Turner(surface, net, in_plane, k, along, turn).best();
+  const Graph graph = polygons_of(surface, net, in_plane, k, along, turn);
+  std::vector<int> of_polygon(graph.count(), 0), from_up = upright(graph);
+  for (std::vector<int>* const by : {&of_polygon, &from_up}) turn_regions(graph, *by);
+  if (graph.cost(from_up) < graph.cost(of_polygon)) of_polygon = std::move(from_up);
   std::vector<int> result(net.triangle_count());
   for (int t = 0; t < net.triangle_count(); ++t) result[t] = of_polygon[surface.triangle_faces[t]];
   return result;

@@ -12,7 +12,7 @@ namespace holomorph::tiling {
 /// By how many k-th turns s the UVs of each polygon are to be turned. Minimises what is minded of the steep area that
 /// does not stand upright, and the lengths of edges that turn, by r + s(right) - s(left), where they are smooth: as far
 /// as single polygons and regions, turned as one, lower it.
-/// @param in_plane #C x 2. @param turn Frames::turn of the map
+/// @param in_plane #C x 2. @param turn #E, k-th turns of the map's jumps
 /// @return #T, the same for all triangles of a polygon. Cost: linear, a few rounds
 std::vector<int> upright_turns(const mesh::Surface& surface, const Net& net, const uv::UvArray& in_plane, int k,
                                const Along& along, const std::vector<int>& turn);

@@ -19,6 +19,7 @@
 #include "structure/harmonic_solver.h"
 #include "structure/solver_report.h"
 #include "structure/structure.h"
+#include "tiling/levels.h"
 #include "uv/density_objective.h"
 
 namespace holomorph::tiling {
@@ -31,28 +32,6 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
-
-// A level of the progressive mesh on which poles are searched for. Its vertices are vertices of the surface.
-
-/// On a surface with more triangles, poles are searched for on a level of about this many.
-inline constexpr int kLevelTriangles = 10'000;
-
-struct CoarseLevel {
-  std::shared_ptr<const mesh::Surface> surface;
-  std::vector<int> vertex;     ///< #V of the level: the same vertex of the surface
-  std::vector<int> collapsed;  ///< #V of the surface: the vertex of the level that it was collapsed into
-  /// The corners that are vertices of the level, for each polygon of the surface with more than four.
-  std::vector<std::vector<int>> large_polygons = {};
-
-  /// Whether the level has all triangles of the surface.
-  bool is_whole(const mesh::Surface& all) const { return surface->triangles.size() == all.triangles.size(); }
-};
-
-/// Makes the coarse level of a surface. Its vertices are numbered by their positions, so that the poles do not depend
-/// on the surface's numbers. A small surface keeps all its triangles. An intrinsic surface, or one without a
-/// progressive mesh, is its own level. @throws Cancelled
-CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution,
-                         int triangles = kLevelTriangles);
 
 /// Green's functions that are solved for at a time.
 inline constexpr int kGreensBlock = 32;
