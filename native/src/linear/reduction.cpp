@@ -316,7 +316,10 @@ IntegerVector nearest_of_planes(const ReducedBasis& reduced, const VectorXd& tar
     std::int64_t z;
   };
   const auto n = reduced.R.cols();
-  std::vector<Sum> sums{{0, reduced.Q.transpose() * target, IntegerVector::Zero(n)}}, longer;
+  // From the nearest plane on, where numbers are small.
+  const VectorXd plane = nearest_coefficients(reduced, target);
+  const VectorXd from_plane = reduced.Q.transpose() * (target - reduced.basis * plane);
+  std::vector<Sum> sums{{0, from_plane, IntegerVector::Zero(n)}}, longer;
   for (Eigen::Index k = n; k-- > 0;) {
     std::vector<Next> all;
     for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -339,7 +342,8 @@ IntegerVector nearest_of_planes(const ReducedBasis& reduced, const VectorXd& tar
     }
     sums.swap(longer);
   }
-  return original_integers(reduced, sums[0].z.cast<double>());
+  const bool is_nearer = sums[0].squared < from_plane.squaredNorm();
+  return original_integers(reduced, is_nearer ? VectorXd(plane + sums[0].z.cast<double>()) : plane);
 }
 
 IntegerMatrix integer_kernel(IntegerMatrix A) {

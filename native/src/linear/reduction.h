@@ -41,8 +41,8 @@ ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = kDelta, const std::
 /// @throw SolverError the target is not finite @throw SolverError the integers are beyond 2^53
 IntegerVector nearest_plane(const ReducedBasis& reduced, const Eigen::VectorXd& target);
 
-/// The same with the least |target - B z| among those to which `kept` partial sums lead, from the last coefficient to
-/// the first: nearer than the nearest plane. Cost: so many times as much.
+/// The same, or integers with a smaller |target - B z|: the least of those to which the `kept` least partial sums lead,
+/// from the last coefficient to the first. Cost: so many times as much. @param kept from 1
 IntegerVector nearest_of_planes(const ReducedBasis& reduced, const Eigen::VectorXd& target, int kept);
 
 struct NearPoints {

@@ -51,6 +51,15 @@ TEST_F(IslandsOfADome, AreLookedForAsFarAsTheyMayBeWorthIt) {
   EXPECT_EQ(counted([&] { own.best(1.5 * wanted->cost(), kInfinity, execution_); }), 0u);
 }
 
+// Work that allows the first pieces alone: none is evened.
+TEST_F(IslandsOfADome, AreNotEvenedWithoutWork) {
+  const auto wanted = island_map(*part_->surface, {kEvenness}, execution_);
+  IslandSearch short_of_work = search(), own = search();
+  const std::uint64_t few = counted([&] { EXPECT_FALSE(short_of_work.best(2 * wanted->cost(), 1, execution_)); });
+  const std::uint64_t all = counted([&] { EXPECT_TRUE(own.best(2 * wanted->cost(), kInfinity, execution_)); });
+  EXPECT_LT(4 * few, all);
+}
+
 TEST_F(IslandsOfADome, OfASearchAtOnceLeaveTheWeightsAsTheyWere) {
   const auto wanted = island_map(*part_->surface, {kEvenness}, execution_);
   IslandSearch own = search();

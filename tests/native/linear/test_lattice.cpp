@@ -163,6 +163,44 @@ TEST_P(EveryLattice, NearAPointOfTheLatticeItIsFound) {
   EXPECT_EQ(nearest_plane(reduced, target), reduced.transform * c);
 }
 
+TEST_P(EveryLattice, OfPlanesTheNearestIsAtLeastAsNear) {
+  const MatrixXd B = GetParam().basis();
+  const ReducedBasis reduced = reduce(B);
+  const double size = reduced.basis.colwise().norm().maxCoeff();
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    const VectorXd target = 100 * size * solver::random_values(B.rows(), 1, seed);
+    const auto distance = [&](const IntegerVector& z) {
+      return (target - exact_product(GetParam().integers, z) * GetParam().unit).norm();
+    };
+    const double plane = distance(nearest_plane(reduced, target));
+    for (const int kept : {1, 8, 64})
+      EXPECT_LE(distance(nearest_of_planes(reduced, target, kept)), plane + kRounding * target.norm());
+  }
+}
+
+// The points of the checkerboard lattice beside a deep hole: the plane misses the nearest one, all sums do not.
+TEST(Lattice, ManySumsFindTheNearestPoint) {
+  const MatrixXd B = scrambled(checkerboard_lattice(6), 7).cast<double>();
+  const ReducedBasis reduced = reduce(B);
+  int nearer = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const VectorXd target = 3 * solver::random_values(reduced.basis.rows(), 1, seed);
+    const auto squared = [&](const IntegerVector& z) { return (target - B * z.cast<double>()).squaredNorm(); };
+    const double found = squared(nearest_of_planes(reduced, target, 200)),
+                 plane = squared(nearest_plane(reduced, target));
+    // Rounding each coordinate, and the worst of them the other way if the sum is odd, is nearest (Conway & Sloane).
+    VectorXd point = target.array().round();
+    if (std::llround(point.sum()) % 2 != 0) {
+      Index worst = 0;
+      (target - point).cwiseAbs().maxCoeff(&worst);
+      point[worst] += target[worst] > point[worst] ? 1 : -1;
+    }
+    EXPECT_NEAR(found, (target - point).squaredNorm(), 1e-9);
+    nearer += found < plane - 1e-9 ? 1 : 0;
+  }
+  EXPECT_GT(nearer, 0);
+}
+
 // In general the first column is longer than the least vector, by at most (4 / 3)^((n - 1) / 2) as delta tends to 1.
 TEST(Lattice, LeastVectorsOfKnownLattices) {
   EXPECT_EQ(reduce(scrambled(IntegerMatrix::Identity(12, 12), 3).cast<double>()).basis.col(0).squaredNorm(), 1);
@@ -218,6 +256,7 @@ TEST(Lattice, APointThatIsNotFiniteIsRefused) {
   const ReducedBasis reduced = reduce(MatrixXd::Identity(2, 2));
   for (const double value : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(nearest_plane(reduced, VectorXd{{0, value}}), SolverError);
+    EXPECT_THROW(nearest_of_planes(reduced, VectorXd{{0, value}}, 4), SolverError);
   }
 }
 

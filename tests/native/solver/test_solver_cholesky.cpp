@@ -72,6 +72,29 @@ TEST(SparseCholesky, AnIndefiniteMatrixIsRefusedAndTheNextOneTaken) {
   EXPECT_LE((A * factor.solve(B) - B).norm(), kRounding * B.norm());
 }
 
+TEST(SparseCholesky, OneAfterTheOtherHasTheBitsOfOneAlone) {
+  const Matrix A = positive_matrix(15, 12), of_other_places = positive_matrix(12, 15);
+  Matrix larger = A;
+  larger.coeffRef(20, 20) += 3;
+  std::vector<char> fixed(A.rows(), 0);
+  fixed[7] = 1;
+  const Eigen::MatrixXd B = random_values(A.rows(), 2, 6);
+  SparseCholesky one;
+  for (const auto& [matrix, held] : std::vector<std::pair<Matrix, std::vector<char>>>{{A, {}},
+                                                                                      {larger, {}},
+                                                                                      {A, fixed},
+                                                                                      {A, {}},
+                                                                                      {of_other_places, {}},
+                                                                                      {A, fixed},
+                                                                                      {larger, fixed},
+                                                                                      {larger, {}}}) {
+    SparseCholesky alone;
+    one.compute(lower(matrix), held);
+    alone.compute(lower(matrix), held);
+    EXPECT_TRUE(same_bits(one.solve(B), alone.solve(B)));
+  }
+}
+
 TEST_P(FixedUnknowns, UnknownsThatNothingConnectsAreSolvedFor) {
   const int n = GetParam() + 2;
   Matrix A(n, n);

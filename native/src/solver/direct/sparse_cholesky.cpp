@@ -206,10 +206,11 @@ struct SparseCholesky::Factor {
 
 void SparseCholesky::compute(const Lower& lower, std::vector<char> fixed) {
   const linear::OneBlasThread one_thread;
+  const bool is_plain = fixed_.empty() && fixed.empty();  // else the order of elimination is another one
   fixed_ = std::move(fixed);
   others_.clear();
   factor_of_others_.reset();
-  if (!factor_ || !fixed_.empty()) factor_ = std::make_unique<Factor>();
+  if (!factor_ || !is_plain) factor_ = std::make_unique<Factor>();
   if (lower.rows() == 0) return;
   on_sound_thread([&] { factorise(lower); });
   Execution::count(factor_->operations() +

@@ -46,7 +46,7 @@ Symmetry inverse(const TurnLattice& lattice, const Symmetry& a) {
   return {turn, {-moved.translation[0], -moved.translation[1]}};
 }
 
-uv::UvArray corner_coordinates(const mesh::Surface& surface, const TurnLattice& lattice, const LatticeMap& map) {
+uv::UvArray corner_uv(const mesh::Surface& surface, const TurnLattice& lattice, const LatticeMap& map) {
   const double height = lattice.second.imag(), slant = lattice.second.real();
   uv::UvArray uv = uv::UvArray::Zero(static_cast<Eigen::Index>(surface.polygons.corner_vertices.size()), 2);
   std::vector<char> is_cone(map.y.size(), 0);  // at halves and thirds, wherever the grid is
@@ -64,15 +64,11 @@ uv::UvArray corner_coordinates(const mesh::Surface& surface, const TurnLattice& 
   write(0);
   const double most = uv.cwiseAbs().maxCoeff();
   write(std::exp2(std::ceil(std::log2(std::max(most, 1.0))) - kSingleMantissa));
-  return uv;
-}
-
-uv::UvArray in_plane(const TurnLattice& lattice, uv::UvArray coordinates) {
-  if (lattice.k == 6) {
-    coordinates.col(0) += lattice.second.real() * coordinates.col(1);
-    coordinates.col(1) *= lattice.second.imag();
+  if (lattice.k == 6) {  // the square lattice is the plane's own
+    uv.col(0) += slant * uv.col(1);
+    uv.col(1) *= height;
   }
-  return coordinates;
+  return uv;
 }
 
 void join_polygons(const mesh::Surface& surface, const TurnLattice& lattice, LatticeMap& map) {

@@ -44,12 +44,9 @@ struct Jump {
   std::array<std::int64_t, 2> translation{};
 };
 
-/// The corners of polygons in coordinates of the lattice, exact on a grid of powers of two: turns of the lattice are
-/// integer matrices there, and translations whole. @pre the triangles of a polygon continue each other
-uv::UvArray corner_coordinates(const mesh::Surface& surface, const TurnLattice& lattice, const LatticeMap& map);
-
-/// Coordinates of the lattice in the plane, where turns keep lengths.
-uv::UvArray in_plane(const TurnLattice& lattice, uv::UvArray coordinates);
+/// The UVs of polygons' corners in the plane. In coordinates of the lattice they are exact on a grid of powers of two:
+/// turns are integer matrices there, and translations whole. @pre the triangles of a polygon continue each other
+uv::UvArray corner_uv(const mesh::Surface& surface, const TurnLattice& lattice, const LatticeMap& map);
 
 /// Turns and moves triangles so that those of a polygon continue each other.
 void join_polygons(const mesh::Surface& surface, const TurnLattice& lattice, LatticeMap& map);

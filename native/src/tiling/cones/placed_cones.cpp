@@ -125,9 +125,7 @@ LatticeMap PlacedCones::map(const VectorXcd& y, const NearestMap::Rounded& round
   return result;
 }
 
-uv::UvArray PlacedCones::laid(const LatticeMap& map) const {
-  return in_plane(space_.lattice, corner_coordinates(*surface_, space_.lattice, map));
-}
+uv::UvArray PlacedCones::laid(const LatticeMap& map) const { return corner_uv(*surface_, space_.lattice, map); }
 
 VectorXcd PlacedCones::evened(VectorXcd y, const NearestMap::Rounded& rounded, double evenness,
                               Execution& execution) const {

@@ -96,10 +96,7 @@ uv::Kept kept_of(const mesh::Surface& surface, const TurnLattice& lattice, const
     kept.turns[side / 3][side % 3] = turned_by(lattice, map.at[side].turn);
   kept.unknowns.number.assign(2 * static_cast<std::size_t>(surface.vertex_count), -1);
   kept.unknowns.sign.assign(kept.unknowns.number.size(), 1);
-  std::vector<char> stays(surface.vertex_count, map.cones.empty() ? 0 : 1);
-  for (const mesh::Triple& t : surface.triangles) {
-    for (const int v : t) stays[v] = 0;
-  }
+  std::vector<char> stays(surface.vertex_count, 0);
   for (const auto& [v, cone] : map.cones) stays[v] = 1;
   if (map.cones.empty()) stays[surface.triangles[0][0]] = 1;
   for (int v = 0; v < surface.vertex_count; ++v) {
@@ -143,7 +140,8 @@ std::vector<int> TurnedMaps::cones_of(const ConeOptions& wanted, Execution& exec
   execution.stage("cones", 0, 0.8);
   const Execution::Within within(execution);
   execution.stage("cones", 0, 1);
-  const CoarseLevel coarse = levels_->level(kFewTriangles, execution);
+  // Where any direction will do there is one start, for which there may be more.
+  const CoarseLevel coarse = levels_->level(wanted.along ? kFewTriangles : 2 * kFewTriangles, execution);
   const std::vector<Cones> found = find_cones(*coarse.surface, wanted, execution);
   const Cones* best = &found[0];
   std::pair<double, double> least{kInfinity, 0};
@@ -196,9 +194,8 @@ LatticeMap TurnedMaps::on_surface(const LatticeMap& map, double evenness, Execut
   if (evenness == 0) return result;
   const uv::Kept kept = kept_of(*surface_, lattice, result);
   const bool is_large = static_cast<int>(surface_->triangles.size()) > kLightTriangles;
-  const uv::UvArray delta =
-      uv::evened(*surface_, in_plane(lattice, corner_coordinates(*surface_, lattice, result)), kept, evenness,
-                 execution, is_large ? uv::kDiagonal : "auto", is_large ? kLightSteps : kFineSteps);
+  const uv::UvArray delta = uv::evened(*surface_, corner_uv(*surface_, lattice, result), kept, evenness, execution,
+                                       is_large ? uv::kDiagonal : "auto", is_large ? kLightSteps : kFineSteps);
   for (int v = 0; v < surface_->vertex_count; ++v) result.y[v] += Complex(delta(v, 0), delta(v, 1));
   return result;
 }
@@ -209,7 +206,7 @@ void TurnedMaps::turn_upright(LatticeMap& map) const {
   const Net net(*surface_);
   std::vector<int> turn(surface_->edges.size(), 0);
   for (const Jump& jump : jumps_of(*surface_, lattice, map)) turn[jump.edge] = jump.turn;
-  const uv::UvArray laid = in_plane(lattice, corner_coordinates(*surface_, lattice, map));
+  const uv::UvArray laid = corner_uv(*surface_, lattice, map);
   turn_triangles(lattice, upright_turns(*surface_, net, laid, lattice.k, *options_.along, turn), map);
 }
 
@@ -231,13 +228,12 @@ TurnedMap TurnedMaps::turned_map(double tiles, double evenness, Execution& execu
     if (!helps || best.bad.first == 0) break;
   }
   TurnedMap result;
-  if (!winner) return result;
   const TurnLattice& lattice = winner->lattice();
   result.before = uv::quality(*made_on(), best.before, execution.workers());
   LatticeMap map = is_carried_ ? on_surface(best.map, evenness, execution) : std::move(best.map);
   // Sixth turns are exact to rounding alone: the fewer there are, the better.
   if (options_.along && options_.k != 6) turn_upright(map);
-  result.uv = in_plane(lattice, corner_coordinates(*surface_, lattice, map));
+  result.uv = corner_uv(*surface_, lattice, map);
   result.jumps = jumps_of(*surface_, lattice, map);
   const Net net(*made_on());
   std::vector<std::pair<int, int>> cones;
