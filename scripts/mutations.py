@@ -230,9 +230,18 @@ MUTATIONS = (
         ("like-size", "kLikeSize = 1.095", "kLikeSize = 1.19", SIZING),
     )
     | of(
+        ROOM + "choice/candidate.h",
+        ("good-islands", "kGood = 0.8,", "kGood = 8.0,", LOOKS),
+    )
+    | of(
+        ROOM + "choice/candidate.cpp",
+        ("bound-unread", "if (!(bound <", "if (false && !(bound <", "native:Least*"),
+        ("judge-unheard", "each.judges && made", "false && made", "native:Least*"),
+        ("budget-unread", "if (best && !budget", "if (false && !budget", "native:Least*"),
+    )
+    | of(
         ROOM + "choice/untiled.h",
         ("most-curved", "kMostCurved = 8 *", "kMostCurved = 0.8 *", LOOKS),
-        ("good-islands", "kGood = 0.8;", "kGood = 8.0;", LOOKS),
     )
     | of(
         ROOM + "uv/appearance.h",
@@ -290,7 +299,7 @@ MUTATIONS = (
     )
     | of(
         ROOM + "choice/tiling_search.cpp",
-        ("lines-asked", "(are_edged && !edges", "(false && !edges", ASKED),
+        ("lines-asked", "kMirror || !edges", "kMirror && !edges", ASKED),
         ("most-lost", "!(lost < kMostLost)", "!(lost < 1)", AUTOMATIC),
         ("stretched-too-far", "factor <= kMostStretched)", "factor <= 9)", "native:TilingSearch*"),
         ("stretched-jumps", "std::abs((std::conj(line)", "0 * std::abs((std::conj(line)", "native:TilingSearch*"),

@@ -48,7 +48,7 @@ py::array evened(const mesh::Surface& surface, const Contiguous<double>& uv, std
     const py::gil_scoped_release unlocked;
     execution.stage("evening", 0.0, 1.0);
     result = uv::evened(surface, std::move(given), {std::move(poles), std::move(u), std::move(v), {}, {}}, evenness,
-                        execution, solver);
+                        execution, {.solver = solver});
     execution.finish();
   }
   return give_matrix(std::move(result));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "uv/appearance.h"
@@ -15,20 +16,22 @@ namespace {
 
 constexpr const char* kTooFew = "too few whole tiles fit on it for squares of the wanted size";
 constexpr const char* kShort = "not all was tried, as it would take long";
-// Part of the work, where pieces follow.
-constexpr double kTiling = 0.8;
+// Part of the work, where other numbers of tiles follow.
+constexpr double kFirst = 0.5;
+// Works of the balanced map and of one cut open, over that of a tiling; of pieces over that of islands; and operations
+// of the millionth of a second in which that counts.
+constexpr double kOfBalanced = 0.2, kOfCut = 1.5, kOfPieces = 1.2, kOperations = 1e3;
+// With fewer tiles none has room for cones or poles.
+constexpr double kFewestTiles = 1;
 // Times the budget, within which pieces follow a tiling: where there are hard edges they are often better.
 constexpr double kPieces = 2;
 // Millionths of a second for each operation of a tiling that takes long: about a tenth of its time.
 constexpr double kIslands = 1e-4;
-// Times the budget: what takes longer is not tried where there is another map, however poor.
-constexpr double kFar = 10;
-
 // Seconds of one processor that all real forms of a part may take, and besides for each of its triangles. Poles and a
 // map of so many forms take ten times as long.
 constexpr double kMostSeconds = 0.25, kMostPerTriangle = 2e-5;
 // Seconds for a value of a form on an edge, for a product of two of these, and for a product in a dense matrix of all.
-constexpr double kSolved = 3e-8, kMultiplied = 5e-11, kDense = 2e-9;
+constexpr double kSolved = 1e-7, kMultiplied = 5e-11, kDense = 2e-9;
 
 // The cost of squares of another size than on other parts: as between those of one part (uv/appearance.h).
 double missed(const Map& made, double density, const Window& window) {
@@ -107,73 +110,77 @@ std::vector<MapPointer> MapSearch::maps(double density, int tries, bool leads, E
 }
 
 std::vector<MapPointer> MapSearch::tried(double density, int tries, bool leads, Execution& execution) {
-  MapPointer best = flat_;
-  std::vector<MapPointer> tilings;
-  const bool is_long = this->is_long();
-  if (is_long) {
-    if (const MapPointer made = quick(density, leads ? tries : 0, execution)) best = made;
-    const double times = best && best->cost() >= kPoor ? kFar : 1;
-    if (best && !budget_->goes_on(held(tilings_).expected_work(), times)) return {said(best)};
+  TilingSearch& tilings = held(tilings_);
+  if (request_.main == Main::kSeamless) return tilings.of_density(density, tries, execution);
+  const MapPointer best = nested(execution, 0.0, tries > 1 ? kFirst : 1.0,
+                                 [&] { return least(candidates(density, tries, leads), flat_, *budget_, execution); });
+  if (!best) return {said(held(untiled_).best(why_untiled(), execution))};
+  std::vector<MapPointer> result{best};
+  if (best->tiling()) {
+    result = nested(execution, kFirst, 1.0, [&] { return tilings.resized(best, density, tries, execution); });
   }
-  if (!best || is_ring() || best->cost() > kGood) {
-    std::string why = "a tiling would look worse";
-    const auto whole = [&] {
-      return nested(execution, 0.0, kTiling, [&] { return held(tilings_).of_density(density, tries, execution); });
-    };
-    if (request_.main == Main::kSeamless) return whole();
-    tilings = unless_refused(whole, [&](const Error& error) {
-      why = std::string("no tiling can be made: ") + error.what();
-      return std::vector<MapPointer>();
-    });
-    execution.part(kTiling, kTiling);
-    best = least(best, tilings.empty() ? nullptr : nearest(tilings, density), why, execution);
-  }
-  if (!is_long) {  // else they were tried
-    const MapPointer pieces = nested(execution, kTiling, 1.0, [&] {
-      return in_pieces(best, density, leads ? tries : 0, window_around(), execution);
-    });
-    if (pieces) best = pieces;
-  }
-  std::vector<MapPointer> result =
-      std::ranges::find(tilings, best) != tilings.end() ? std::move(tilings) : std::vector{best};
   for (MapPointer& made : result) made = said(made);
   return result;
 }
 
-// Whether a tiling of the whole part, that may be left out, takes more than there is.
-bool MapSearch::is_long() const {
-  const bool is_open = request_.main != Main::kSeamless && !held(tilings_).is_strict();
-  return is_open && !budget_->allows(held(tilings_).expected_work());
+// All maps of the part: islands and pieces first where it is not smooth; tilings, and cut open where one is uneven;
+// islands where these are poor; and the balanced map.
+std::vector<Candidate> MapSearch::candidates(double density, int tries, bool leads) {
+  Untiled& untiled = held(untiled_);
+  TilingSearch& tilings = held(tilings_);
+  const double work = tilings.expected_work(), little = kOperations * untiled.work();
+  const bool is_long = !budget_->allows(work), is_flat = is_long || untiled.may_flatten();
+  const auto any = [](const MapPointer&, Execution&) { return 0.0; };
+  const auto poor = [](const MapPointer& best, Execution&) { return best && best->cost() < kPoor ? kInfinity : 0.0; };
+  const auto islands = [&untiled](double most_work) {
+    return [&untiled, most_work](const MapPointer& best, Execution& execution) {
+      return untiled.islands(best ? best->cost() : kInfinity, most_work, execution);
+    };
+  };
+  const auto pieces = [=, this](bool is_cut) {
+    return [=, this](const MapPointer& best, Execution& execution) {
+      return in_pieces(best, is_cut, density, leads ? tries : 0, execution);
+    };
+  };
+  const auto bound_of_balanced = [&untiled](const MapPointer& best, Execution& execution) {
+    return !best || best->cost() <= kGood ? kInfinity : untiled.bound_of_balanced(best->cost(), execution);
+  };
+  const auto balanced = [this, &untiled](const MapPointer&, Execution& execution) {
+    return untiled.balanced(why_untiled(), execution);
+  };
+  std::vector<Candidate> result, whole;
+  const Candidate in_pieces{kOfPieces * little, any, pieces(false), kPieces, true};
+  if (is_flat) {
+    result.push_back(
+        {little, any, islands(is_long ? std::max(untiled.work(), work * kIslands) : untiled.work()), kFar});
+    result.push_back(in_pieces);
+  }
+  const double tiles = density * request_.part->area;
+  const bool has_room = tiles >= kFewestTiles || is_ring() || tilings.is_strict();
+  if (has_room && (!flat_ || flat_->cost() > kGood || is_ring())) {
+    whole = tilings.candidates(tiles, tries > 1);
+    whole.insert(whole.end() - 1, {kOfCut * work, any, pieces(true), kPieces});  // may do without poles, which are last
+  }
+  std::ranges::move(whole, std::back_inserter(result));
+  result.push_back({little, poor, islands(untiled.much_work()), kFar});
+  if (!is_flat) result.push_back(in_pieces);
+  result.push_back({kOfBalanced * work, bound_of_balanced, balanced});
+  return result;
 }
 
-// The best of the maps that take less than a tiling of the whole part.
-MapPointer MapSearch::quick(double density, int tries, Execution& execution) {
-  const MapPointer islands = held(untiled_).islands(kInfinity, held(tilings_).expected_work() * kIslands, execution);
-  const MapPointer best = flat_ && islands ? (islands->cost() < flat_->cost() ? islands : flat_)
-                          : flat_          ? flat_
-                                           : islands;
-  const MapPointer pieces = in_pieces(best, density, tries, window_around(), execution);
-  return pieces ? pieces : best;
+std::string MapSearch::why_untiled() const {
+  const std::exception_ptr& refused = held(tilings_).refused();
+  try {
+    if (refused) std::rethrow_exception(refused);
+  } catch (const Error& error) {
+    return std::string("no tiling can be made: ") + error.what();
+  }
+  return "a tiling would look worse";
 }
 
 // The map, which says where others were not tried.
 MapPointer MapSearch::said(const MapPointer& made) const {
   return budget_->was_short() ? made->because(made->why() + "; " + kShort) : made;
-}
-
-// The one of least cost among these and the other maps of the whole part.
-MapPointer MapSearch::least(const MapPointer& flat, const MapPointer& tiling, const std::string& why,
-                            Execution& execution) {
-  MapPointer best = flat && tiling ? (tiling->cost() < flat->cost() ? tiling : flat) : flat ? flat : tiling;
-  const bool is_poor = !best || best->cost() >= kPoor;
-  if (best && !budget_->goes_on(0, is_poor ? kFar : 1)) return best;
-  if (const MapPointer balanced = held(untiled_).balanced(best ? best->cost() : kInfinity, why, execution))
-    best = balanced;
-  if (!best) return held(untiled_).best(why, execution);
-  if (flat && flat->cost() <= kGood) return best;
-  const MapPointer islands =
-      held(untiled_).islands(best->cost(), is_poor ? std::optional(kInfinity) : std::nullopt, execution);
-  return islands ? islands : best;
 }
 
 MapPointer MapSearch::fitted(const std::vector<MapPointer>& found, double density, const Window& window, double near,
@@ -186,7 +193,7 @@ MapPointer MapSearch::fitted(const std::vector<MapPointer>& found, double densit
   const bool is_inside = !inside.empty();
   const MapPointer made = nearest(is_inside ? inside : found, density);
   if (made->is_in_pieces() && !is_inside) {
-    const MapPointer exact = in_pieces(nullptr, density, 0, Window(), execution);
+    const MapPointer exact = held(pieces_).resized(density, execution);
     return exact ? exact : made;
   }
   if (!made->tiling()) return made;
@@ -201,20 +208,24 @@ MapPointer MapSearch::fitted(const std::vector<MapPointer>& found, double densit
 
 MapPointer MapSearch::best_of_others(const MapPointer& made, const std::vector<MapPointer>& found, double density,
                                      const Window& window, double near, Execution& execution) {
+  const auto cost = [&](const MapPointer& one) { return one->cost() + missed(*one, density, window); };
   std::vector<MapPointer> others;
-  if (made->turns() != 1) {
-    others = {less_bound(made, density, window, near, execution)};
-  } else if (const MapPointer fitting = stretched_or_turned(made, density, window, execution)) {
-    return fitting;
-  } else {
-    others = {held(untiled_).best(kTooFew, execution), held(untiled_).one_island(*made->tiling(), kTooFew, execution)};
-  }
+  const auto best = [&] { return held(std::ranges::min_element(others, {}, cost), others); };
+  if (made->turns() == 1) others.push_back(stretched_or_turned(made, density, window, execution));
+  std::erase(others, nullptr);
+  if (!others.empty() && request_.main == Main::kSeamless) return others[0];
+  const bool is_fitting = !others.empty();
+  others.push_back(held(untiled_).best(kTooFew, execution));
+  if (is_fitting) return best();
   for (const MapPointer& one : found) {
     if (std::abs(relative_size(*one, density) - 1) <= near) others.push_back(one);
   }
-  std::erase(others, nullptr);
-  const auto cost = [&](const MapPointer& one) { return one->cost() + missed(*one, density, window); };
-  return held(std::ranges::min_element(others, {}, cost), others);
+  if (made->turns() == 1) {
+    if (const MapPointer one = held(untiled_).one_island(*made->tiling(), kTooFew, execution)) others.push_back(one);
+  } else if (cost(best()) > kGood) {
+    others.push_back(less_bound(made, density, window, near, execution));
+  }
+  return best();
 }
 
 MapPointer MapSearch::instead_of_refused(const std::string& why, Execution& execution) {
@@ -245,23 +256,15 @@ MapPointer MapSearch::about(double density, int tries, Execution& execution) {
 // The tiling stretched to the density, or turned until it is in the window; null where it is neither.
 MapPointer MapSearch::stretched_or_turned(const MapPointer& made, double density, const Window& window,
                                           Execution& execution) {
-  const MapPointer stretched = held(tilings_).stretched(*made, density, execution);
-  if (stretched && !has_rival(*stretched, execution)) return stretched;
-  const MapPointer turned = held(tilings_).turned(density, execution);
+  if (const MapPointer stretched = held(tilings_).stretched(*made, density, execution)) return stretched;
+  const MapPointer turned = held(tilings_).less_level(*made, density, execution);
   return turned && window.holds(relative_size(*turned, density)) ? turned : nullptr;
 }
 
-bool MapSearch::has_rival(const Map& made, Execution& execution) {
-  if (request_.main == Main::kSeamless || !budget_->goes_on()) return false;
-  return held(untiled_).balanced(made.cost(), "", execution) || held(untiled_).islands(made.cost(), {}, execution);
-}
-
-MapPointer MapSearch::in_pieces(const MapPointer& rival, double density, int tries, const Window& window,
-                                Execution& execution) {
+MapPointer MapSearch::in_pieces(const MapPointer& rival, bool is_cut, double density, int tries, Execution& execution) {
   if (held(tilings_).is_strict() || !may_be_better(held(untiled_).known().get())) return nullptr;
-  if (rival && rival->tiling() && !budget_->goes_on(0, kPieces)) return nullptr;
   if (!pieces_) pieces_.emplace(request_, request_.structure, held(untiled_).known(), *budget_);
-  return pieces_->best(rival, density, tries, window, execution);
+  return is_cut ? pieces_->cut_open(rival, density, tries, execution) : pieces_->best(rival, density, tries, execution);
 }
 
 // Whether islands have a seam across the smooth, or squares that differ, or there are none.

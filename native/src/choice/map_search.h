@@ -53,18 +53,16 @@ class MapSearch {
   MapPointer flat_outline(Execution& execution) const;
   MapPointer found_at_once(Execution& execution);
   std::vector<MapPointer> tried(double density, int tries, bool leads, Execution& execution);
-  MapPointer quick(double density, int tries, Execution& execution);
-  MapPointer least(const MapPointer& flat, const MapPointer& tiling, const std::string& why, Execution& execution);
-  MapPointer in_pieces(const MapPointer& rival, double density, int tries, const Window& window, Execution& execution);
+  std::vector<Candidate> candidates(double density, int tries, bool leads);
+  MapPointer in_pieces(const MapPointer& rival, bool is_cut, double density, int tries, Execution& execution);
   MapPointer best_of_others(const MapPointer& made, const std::vector<MapPointer>& found, double density,
                             const Window& window, double near, Execution& execution);
   MapPointer less_bound(const MapPointer& made, double density, const Window& window, double near,
                         Execution& execution);
   MapPointer stretched_or_turned(const MapPointer& made, double density, const Window& window, Execution& execution);
-  bool has_rival(const Map& made, Execution& execution);
   bool may_be_better(const flat::Layout* flat) const;
-  bool is_long() const;
   bool is_ring() const;
+  std::string why_untiled() const;
   MapPointer said(const MapPointer& made) const;
 
   Request request_;

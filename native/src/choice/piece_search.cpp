@@ -149,27 +149,36 @@ std::vector<mesh::Pair> marked_on(const Piece& piece, const mesh::Surface& surfa
 PieceSearch::PieceSearch(Request request, StructurePointer structure, LayoutPointer flat, Budget& budget)
     : request_(std::move(request)), structure_(std::move(structure)), flat_(std::move(flat)), budget_(budget) {}
 
-MapPointer PieceSearch::best(const MapPointer& rival, double density, int tries, const Window& window,
-                             Execution& execution) {
+MapPointer PieceSearch::best(const MapPointer& rival, double density, int tries, Execution& execution) {
   if (!found_) found_ = nested(execution, 0.0, 0.0, [&] { return divisions(execution); });
-  if (!cut_ && may_be_cut(rival)) cut_ = nested(execution, 0.0, 0.0, [&] { return in_hiding(execution); });
-  std::vector<Division*> all;
-  for (auto* divisions : {&found_, &cut_}) {
-    if (!*divisions) continue;
-    for (Division& each : **divisions) all.push_back(&each);
-  }
+  return best(*found_, rival, density, tries, window_around(), execution);
+}
+
+MapPointer PieceSearch::cut_open(const MapPointer& rival, double density, int tries, Execution& execution) {
+  if (!may_be_cut(rival)) return nullptr;
+  if (!cut_) cut_ = nested(execution, 0.0, 0.0, [&] { return in_hiding(execution); });
+  return best(*cut_, rival, density, tries, window_around(), execution);
+}
+
+MapPointer PieceSearch::resized(double density, Execution& execution) {
+  return last_ ? best(*last_, nullptr, density, 0, Window(), execution) : nullptr;
+}
+
+MapPointer PieceSearch::best(std::vector<Division>& all, const MapPointer& rival, double density, int tries,
+                             const Window& window, Execution& execution) {
   MapPointer best;
   double least = kInfinity;
   const auto count = static_cast<double>(all.size());
   for (std::size_t n = 0; n < all.size(); ++n) {
     const double begin = static_cast<double>(n) / count, end = static_cast<double>(n + 1) / count;
     const std::vector<Tiled> tiled =
-        nested(execution, begin, end, [&] { return this->tiled(*all[n], rival, density, tries, window, execution); });
+        nested(execution, begin, end, [&] { return this->tiled(all[n], rival, density, tries, window, execution); });
     const double most = rival ? rival->cost() + (rival->is_in_islands() ? cost_of_turns(tiled) : 0) : kInfinity;
-    const Minded made = nested(execution, end, end, [&] { return least_minded(*all[n], tiled, execution); });
+    const Minded made = nested(execution, end, end, [&] { return least_minded(all[n], tiled, execution); });
     if (made.map && made.cost < std::min(most, least)) {
       best = made.map;
       least = made.cost;
+      last_ = &all;
     }
     if (made.map && made.map->cost() - uv::kHardSeam * made.map->layout()->hard_length <= kFlat) break;
     if (best && n + 1 < all.size() && !budget_.goes_on()) break;
@@ -226,7 +235,7 @@ std::optional<TilingSearch> PieceSearch::search_of(const Piece& piece, bool is_c
       [&] {
         const PartPointer part = is_cut ? piece.part : closed(piece.part, execution);
         Request request = request_;
-        if (is_cut) request.rows = tiling::Rows::kNone;
+        if (is_cut) request.rows = tiling::Rows::kNone, request.tiling.poles.count = 0;
         request.tiling.marked = marked_on(piece, *part->surface, std::move(request.tiling.marked));
         return std::optional<TilingSearch>(std::in_place, part, automatic_structure(part, {}, execution),
                                            std::move(request), budget_);
@@ -234,12 +243,15 @@ std::optional<TilingSearch> PieceSearch::search_of(const Piece& piece, bool is_c
       [](const Error&) { return std::nullopt; });
 }
 
-// Whether the tiling of a piece may be part of a map that costs less than a tiling of the whole part. On a tube one
-// without poles tells that: they would turn the rows that run around it.
-bool PieceSearch::is_worth(Solved& solved, const MapPointer& rival, Execution& execution) const {
-  if (!rival || !rival->tiling() || !solved.search.part()->is_tube()) return true;
-  const double guess = solved.search.guess_without_poles(execution);
-  return guess * solved.piece.part->area < rival->cost() * request_.part->area;
+// Whether the tiling of a piece may be part of a map that costs less than the rival, and than the piece's islands: on a
+// tube these may turn rows that could run around it.
+bool PieceSearch::is_worth(Solved& solved, const Division& division, const MapPointer& rival, double density,
+                           Execution& execution) const {
+  const Part& piece = *solved.piece.part;
+  const double bound = solved.search.bound(density * piece.area, execution);
+  if (!solved.search.part()->is_tube() && bound >= solved.piece.cost) return false;
+  const double seam = uv::kSeam * division.cut.value_or(0);
+  return !rival || !rival->tiling() || (bound + seam) * piece.area < rival->cost() * request_.part->area;
 }
 
 // The pieces with tilings that may be better than islands.
@@ -247,7 +259,8 @@ std::vector<PieceSearch::Tiled> PieceSearch::tiled(Division& division, const Map
                                                    int tries, const Window& window, Execution& execution) {
   std::vector<Solved*> pieces;
   for (Solved& each : division.pieces) {
-    if (nested(execution, 0.0, 0.0, [&] { return is_worth(each, rival, execution); })) pieces.push_back(&each);
+    if (nested(execution, 0.0, 0.0, [&] { return is_worth(each, division, rival, density, execution); }))
+      pieces.push_back(&each);
   }
   std::vector<Tiled> made;
   const auto count = static_cast<double>(pieces.size());
@@ -311,7 +324,8 @@ MapPointer PieceSearch::glued(const Division& division, const std::vector<Tiled>
       [&] {
         parts = cut_apart(*request_.part, names, execution);
         for (const Piece& each : parts) {
-          if (each.name == flat::kRest) maps.push_back({&each, untiled(each, execution)});
+          if (each.name == flat::kRest)
+            maps.push_back({&each, flat_ ? as_islands(each, execution) : untiled(each, execution)});
         }
         return true;
       },
@@ -320,12 +334,30 @@ MapPointer PieceSearch::glued(const Division& division, const std::vector<Tiled>
   return mixed_map(request_.part, structure_, maps, request_.evenness, division.cut, execution);
 }
 
-// The map of a piece without tiling. Several divisions have the same pieces.
+// The islands of the part on a piece without tiling.
+MapPointer PieceSearch::as_islands(const Piece& piece, Execution& execution) const {
+  const mesh::Surface& surface = *piece.part->surface;
+  auto made = std::make_shared<flat::Layout>();
+  made->uv.resize(static_cast<Eigen::Index>(piece.corner_index.size()), 2);
+  for (std::size_t c = 0; c < piece.corner_index.size(); ++c)
+    made->uv.row(static_cast<Eigen::Index>(c)) = flat_->uv.row(piece.corner_index[c]);
+  made->quality = uv::quality(surface, made->uv, execution.workers());
+  if (flat_->quality.direction)
+    made->quality.direction = uv::direction(surface, made->uv, piece.part->up, 1, execution.workers());
+  const std::vector<mesh::Pair> seams = sorted_pairs(flat_->seams);
+  for (const mesh::Pair& ends : surface.edges) {
+    if (holds(seams, piece.vertex_index[ends[0]], piece.vertex_index[ends[1]])) made->seams.push_back(ends);
+  }
+  made->evenness = flat_->evenness;
+  made->islands = 1;
+  return std::make_shared<const Map>(piece.part, nullptr, std::move(made), "", execution);
+}
+
+// The map of a piece without tiling, where the part has no islands. Several divisions have the same pieces.
 MapPointer PieceSearch::untiled(const Piece& piece, Execution& execution) {
   MapPointer& known = rest_[piece.face_index];
   if (!known) {
-    const StructurePointer structure = automatic_structure(piece.part, {}, execution);
-    Untiled search(piece.part, structure, request_.evenness, request_.is_upright(), execution);
+    Untiled search(piece.part, nullptr, request_.evenness, request_.is_upright(), execution);
     known = search.best("it has no tiling", execution);
   }
   return known;

@@ -23,8 +23,11 @@ class PieceSearch {
   /// The map of least cost, if it is below that of another one, to which that of rows that turn is added. Null without.
   /// @param rival null for none
   /// @param tries numbers of tiles for the largest piece, whose density is then that of the others; 0 where it is given
-  /// @param window of pieces' densities over the one that is wanted
-  MapPointer best(const MapPointer& rival, double density, int tries, const Window& window, Execution& execution);
+  MapPointer best(const MapPointer& rival, double density, int tries, Execution& execution);
+  /// The part cut open where few see it, likewise, if the rival is a tiling that is uneven.
+  MapPointer cut_open(const MapPointer& rival, double density, int tries, Execution& execution);
+  /// The last map that was found, with this density.
+  MapPointer resized(double density, Execution& execution);
 
  private:
   struct Solved {
@@ -46,11 +49,14 @@ class PieceSearch {
     double cost;
   };
 
+  MapPointer best(std::vector<Division>& all, const MapPointer& rival, double density, int tries, const Window& window,
+                  Execution& execution);
   std::vector<Division> divisions(Execution& execution);
   bool may_be_cut(const MapPointer& rival) const;
   std::vector<Division> in_hiding(Execution& execution);
   std::optional<TilingSearch> search_of(const Piece& piece, bool is_cut, Execution& execution);
-  bool is_worth(Solved& solved, const MapPointer& rival, Execution& execution) const;
+  bool is_worth(Solved& solved, const Division& division, const MapPointer& rival, double density,
+                Execution& execution) const;
   std::vector<Tiled> tiled(Division& division, const MapPointer& rival, double density, int tries, const Window& window,
                            Execution& execution);
   static MapPointer of_density(TilingSearch& search, double density, int tries, const Window& window,
@@ -58,6 +64,7 @@ class PieceSearch {
   Minded least_minded(const Division& division, const std::vector<Tiled>& tiled, Execution& execution);
   MapPointer glued(const Division& division, const std::vector<Tiled>& tiled, Execution& execution);
   MapPointer untiled(const Piece& piece, Execution& execution);
+  MapPointer as_islands(const Piece& piece, Execution& execution) const;
   double cost_of_turns(const std::vector<Tiled>& tiled) const;
 
   Request request_;
@@ -65,6 +72,7 @@ class PieceSearch {
   LayoutPointer flat_;
   Budget& budget_;
   std::optional<std::vector<Division>> found_, cut_;  // what was looked for already; cut_ none or one
+  std::vector<Division>* last_ = nullptr;             // of which the last map is
   std::map<std::vector<int>, MapPointer> rest_;       // of pieces without tiling, by their polygons
 };
 

@@ -61,7 +61,8 @@ double soft_length(const Piece& piece, const std::vector<mesh::Pair>& seams) {
   return result;
 }
 
-// Whether the islands have a seam across the smooth, longer than `most`, or stretch. Gives the piece what is theirs.
+// Whether the islands have a seam across the smooth, longer than `most`, or stretch, or do not stand upright. Gives the
+// piece what is theirs.
 bool is_minded(Piece& piece, const flat::Layout& flat, const std::vector<mesh::Pair>& seams, double most,
                Execution& execution) {
   const mesh::Surface& surface = *piece.part->surface;
@@ -73,7 +74,7 @@ bool is_minded(Piece& piece, const flat::Layout& flat, const std::vector<mesh::P
     quality.direction = uv::direction(surface, uv, piece.part->up, 1, execution.workers());
   const double soft = soft_length(piece, seams);
   piece.cost = uv::cost(quality, {.soft_seams = soft / std::sqrt(piece.part->area)});
-  return soft > most || uv::cost_of_squares(quality) > kFlat;
+  return soft > most || piece.cost > kFlat;
 }
 
 // The tiling without the seams that ran through windows, and the cones at their rims.

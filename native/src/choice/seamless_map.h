@@ -70,6 +70,7 @@ struct SeamlessMap {
   uv::UvArray uv;       ///< #C x 2 in tiles: one tile of the texture is the unit square
   uv::Quality quality;  ///< on the triangles of `triangulation`
   std::shared_ptr<const mesh::Surface> triangulation;
+  TileOptions asked;                            ///< what it was made by
   double tiles = 0;                             ///< the number that was aimed at: area times median density
   double evenness = 0;                          ///< from 0, conformal, to 1
   std::array<std::complex<double>, 2> lattice;  ///< the translations by which it may jump

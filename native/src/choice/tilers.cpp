@@ -218,7 +218,7 @@ SeamlessPointer Tilers::shifted(const TileOptions& options, Execution& execution
   });
 }
 
-SeamlessPointer Tilers::turned(const TileOptions& options, Execution& execution) {
+std::shared_ptr<tiling::TurnedTiler> Tilers::turned_tiler(const TileOptions& options, Execution& execution) {
   check_turned(options);
   const Heading& heading = options.heading;
   const TurnedKey key{options.turns, options.rows, heading, options.marked, options.missing};
@@ -232,6 +232,15 @@ SeamlessPointer Tilers::turned(const TileOptions& options, Execution& execution)
     tiler = std::make_shared<tiling::TurnedTiler>(part_->surface, asked, execution);
   }
   turned_.keep(key, tiler);
+  return tiler;
+}
+
+double Tilers::guess_turned(const TileOptions& options, Execution& execution) {
+  return turned_tiler(options, execution)->guess(options.tiles, execution);
+}
+
+SeamlessPointer Tilers::turned(const TileOptions& options, Execution& execution) {
+  const std::shared_ptr<tiling::TurnedTiler> tiler = turned_tiler(options, execution);
   const TurnedMapKey made_key{tiler, options.tiles, options.evenness};
   SeamlessPointer made = turned_maps_.get(made_key).value_or(nullptr);
   if (!made) {

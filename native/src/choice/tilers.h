@@ -89,12 +89,13 @@ class Tilers {
 
   /// The 95 % over 5 % quantile of the density of tilings without poles, about, before they are rounded and evened.
   double ratio_without_poles(BoundaryLines boundary, bool is_evened, Execution& execution);
+  /// About what is minded of the squares of a tiling that turns (tiling/cones/turned_map.h).
+  double guess_turned(const TileOptions& options, Execution& execution);
   /// The last ones are kept.
   TilerPointer tiler(const PoleChoice& poles, BoundaryLines boundary, bool is_evened, Execution& execution);
-
- private:
   std::shared_ptr<const tiling::Levels> levels(Execution& execution);
 
+ private:
   struct TilerKey {
     PoleChoice poles;
     BoundaryLines boundary;
@@ -112,17 +113,19 @@ class Tilers {
   // What a tiling was made of; its tiler stays as long as it is kept.
   using ShiftedKey = std::pair<TilerPointer, TileOptions>;
   using TurnedMapKey = std::tuple<std::shared_ptr<tiling::TurnedTiler>, double, double>;
-  static constexpr std::size_t kKept = 2;  // more poles are tried where some are too few
+  static constexpr std::size_t kKept = 2;    // more poles are tried where some are too few
+  static constexpr std::size_t kTurned = 3;  // without lines, with whole ones, and with free ones
 
   SeamlessPointer shifted(const TileOptions& options, Execution& execution);
   SeamlessPointer turned(const TileOptions& options, Execution& execution);
+  std::shared_ptr<tiling::TurnedTiler> turned_tiler(const TileOptions& options, Execution& execution);
 
   PartPointer part_;
   Memo<int, tiling::Levels> levels_;
   Newest<TilerKey, TilerPointer> tilers_{kKept};
   Newest<ShiftedKey, SeamlessPointer> shifted_{kKept};
-  Newest<TurnedKey, std::shared_ptr<tiling::TurnedTiler>> turned_{kKept};
-  Newest<TurnedMapKey, SeamlessPointer> turned_maps_{kKept};
+  Newest<TurnedKey, std::shared_ptr<tiling::TurnedTiler>> turned_{kTurned};
+  Newest<TurnedMapKey, SeamlessPointer> turned_maps_{kTurned};
 };
 
 }  // namespace holomorph::choice

@@ -28,8 +28,16 @@ constexpr int kMorePoles = 2, kMostPoles = 16, kFewTriangles = 5000;
 // Cost of a tiling without poles, expected and made, up to which the best map has no cones: all of its rows run round.
 constexpr double kRegular = 1.1;
 
-// Cost of a tiling that turns, above which one that is only shifted is tried: most cost 0.7 to 1.8.
+// Cost of a map, above which poles are tried where the texture may turn: most tilings that turn cost 0.7 to 1.8.
 constexpr double kPoorTurned = 2.0;
+
+// A tiling that turns costs about this part of what it is guessed on few triangles, as it was seen on some seventy
+// meshes: 0.65 to 1.3, less on thin shells, and more with many small holes, which few triangles do not keep.
+constexpr double kOfGuess = 0.75;
+
+// Works over that of a tiling that turns: of one without poles, with lines, on all triangles, with poles, and of a
+// guess.
+constexpr double kOfNone = 0.5, kOfLines = 2, kOfPoles = 0.7, kOfGuessing = 0.3;
 
 // What rows that run along hard edges, and end there, are worth in the cost, which does not see them: for lines as long
 // as the square root of the area, and at most. They are tried where there are as many, and up to so many triangles:
@@ -66,10 +74,6 @@ double cost_of_direction(const uv::Quality& quality) {
 
 // The cost of a tiling but for that of its direction, which bounds and guesses know nothing of.
 double but_direction(const Map& made) { return made.cost() - cost_of_direction(made.quality()); }
-
-MapPointer cheaper(const MapPointer& one, const MapPointer& other) {
-  return !one || (other && other->cost() < one->cost()) ? other : one;
-}
 
 // The quality where all areas are multiplied. Their quantiles are, too: measured again, rounding might take another of
 // two triangles between which the median is.
@@ -127,6 +131,7 @@ double TilingSearch::expected_work() const {
 }
 
 double TilingSearch::guess_without_poles(Execution& execution) {
+  if (!budget_.allows(kOfGuessing * expected_work())) return kInfinity;
   if (!ratio_without_poles_) {
     ratio_without_poles_ =
         structure_->tilers().ratio_without_poles(request_.tiling.boundary, request_.evenness > 0, execution);
@@ -135,22 +140,27 @@ double TilingSearch::guess_without_poles(Execution& execution) {
 }
 
 std::vector<MapPointer> TilingSearch::of_density(double density, int tries, Execution& execution) {
-  std::vector<MapPointer> tilings;
-  double tiles = density * part_->area, below = 0, above = kInfinity;
-  for (int attempt = 0; attempt < tries; ++attempt) {
-    if (!tilings.empty() && !budget_.goes_on()) break;
-    const auto next = [&] {
-      return nested(execution, static_cast<double>(attempt) / tries, (attempt + 1.0) / tries,
-                    [&] { return of_tiles({.tiles = tiles, .size_counts = tries > 1}, execution); });
-    };
-    const MapPointer made = tilings.empty() ? next() : unless_refused(next, [](const Error&) { return MapPointer(); });
-    if (!made) break;
-    tilings.push_back(made);
-    const double size = relative_size(*made, density);
-    if (window_around().holds(size)) break;
+  const double tiles = density * part_->area;
+  MapPointer first = nested(execution, 0, 1.0 / tries,
+                            [&] { return least(candidates(tiles, tries > 1), nullptr, budget_, execution); });
+  if (!first) std::rethrow_exception(refused_);
+  return resized(std::move(first), density, tries, execution);
+}
+
+std::vector<MapPointer> TilingSearch::resized(MapPointer first, double density, int tries, Execution& execution) {
+  std::vector<MapPointer> tilings{std::move(first)};
+  const TileOptions kind = tilings[0]->tiling()->asked;
+  double tiles = kind.tiles, below = 0, above = kInfinity;
+  for (int attempt = 1; attempt < tries; ++attempt) {
+    const double size = relative_size(*tilings.back(), density);
+    if (window_around().holds(size) || !budget_.goes_on()) break;
     size < 1 ? below = std::max(below, tiles) : above = std::min(above, tiles);
     tiles /= size;
     if (!(below < tiles && tiles < above)) tiles = std::sqrt(below * above);  // the density grows in steps
+    const MapPointer made = nested(execution, static_cast<double>(attempt) / tries, (attempt + 1.0) / tries,
+                                   [&] { return with_or_none(of_tiles(kind, tiles), execution); });
+    if (!made) break;
+    tilings.push_back(made);
   }
   return tilings;
 }
@@ -159,7 +169,10 @@ MapPointer TilingSearch::moved(const std::vector<MapPointer>& tilings, double de
                                Execution& execution) {
   MapPointer made = nearest(tilings, density);
   if (request_.tiling.moves.empty()) return made;
-  return of_tiles({made->tiling()->tiles, size_counts, {}, request_.tiling.moves}, execution);
+  TileOptions options = of_tiles(made->tiling()->asked, made->tiling()->tiles);
+  options.size_counts = size_counts;
+  options.moves = request_.tiling.moves;
+  return with(options, execution);
 }
 
 MapPointer TilingSearch::stretched(const Map& made, double density, Execution& execution) const {
@@ -167,52 +180,112 @@ MapPointer TilingSearch::stretched(const Map& made, double density, Execution& e
   return tiling ? std::make_shared<const Map>(part_, structure_, std::move(tiling), execution) : nullptr;
 }
 
-MapPointer TilingSearch::turned(double density, Execution& execution) {
-  return unless_refused(
-      [&] {
-        return of_tiles({density * part_->area, true, kMostTurned}, execution);
-      },
-      [](const Error&) { return MapPointer(); });
+MapPointer TilingSearch::less_level(const Map& made, double density, Execution& execution) {
+  TileOptions options = of_tiles(made.tiling()->asked, density * part_->area);
+  options.size_counts = true;
+  options.max_turn = kMostTurned;
+  return with_or_none(options, execution);
 }
 
-// One that turns where that is asked for; one that is only shifted where that is impossible, or where the other is poor
-// or loses triangles and it costs less: its jumps are symmetries of the texture, too.
-MapPointer TilingSearch::of_tiles(Size size, Execution& execution) {
+double TilingSearch::bound(double tiles, Execution& execution) {
+  if (request_.tiling.turns != 1 && !request_.tiling.missing) return bound_of_turned(tiles, execution);
+  return request_.tiling.poles.are_none() ? guess_without_poles(execution) : 0;
+}
+
+double TilingSearch::bound_of_turned(double tiles, Execution& execution) {
+  if (!budget_.allows(kOfGuessing * expected_work())) return 0;
+  return unless_refused(
+      [&] {
+        const TileOptions turned = of_tiles(kind({}, request_.tiling.turns, tiling::Rows::kNone), tiles);
+        return kOfGuess * structure_->tilers().guess_turned(turned, execution);
+      },
+      [](const Error&) { return 0.0; });
+}
+
+// Where the texture may turn: the tiling without poles whose rows all run round, if there is one; those that turn; and
+// only shifted ones where these are poor, or impossible: their jumps are symmetries of the texture, too.
+std::vector<Candidate> TilingSearch::candidates(double tiles, bool size_counts) {
   using tiling::Rows;
   const int turns = request_.tiling.turns;
-  if (turns == 1) return shifted(size, execution);
-  if (request_.tiling.missing) return with(request_.tiling.poles, size, turns, Rows::kNone, execution);
-  size.is_of_turns = true;
-  const std::optional<Rows> rows = request_.rows;
-  const bool are_edged = rows == Rows::kWhole || rows == Rows::kFree;
-  if (rows == Rows::kMirror || (are_edged && !edges_of_lines().empty())) {
-    if (MapPointer made = with_turns(size, *rows, execution)) return made;
+  const double work = expected_work();
+  const auto asked = [=, this](const PoleChoice& poles, int turns, Rows rows) {
+    TileOptions result = of_tiles(kind(poles, turns, rows), tiles);
+    result.size_counts = size_counts;
+    return result;
+  };
+  const auto any = [](const MapPointer&, Execution&) { return 0.0; };
+  const auto shifted = [=, this](const MapPointer&, Execution& execution) {
+    return this->shifted(asked(request_.tiling.poles, 1, Rows::kNone), execution);
+  };
+  if (turns == 1) return {{work, any, shifted}};
+  const TileOptions turned = asked(request_.tiling.poles, turns, Rows::kNone);
+  const auto make_turned = [=, this](const MapPointer&, Execution& execution) {
+    return with_or_none(turned, execution);
+  };
+  if (request_.tiling.missing) return {{work, any, make_turned}};
+  std::vector<Candidate> result;
+  if (request_.main == Main::kAutomatic && request_.tiling.poles.is_open() && has_tilings_without_poles()) {
+    const auto bound = [this](const MapPointer&, Execution& execution) {
+      const double guess = guess_without_poles(execution);
+      return guess <= kRegular ? guess : kInfinity;
+    };
+    const auto make = [=, this](const MapPointer&, Execution& execution) -> MapPointer {
+      const MapPointer made = with_or_none(asked({0, {}, {}}, 1, Rows::kNone), execution);
+      return made && is_regular(*made) ? made : nullptr;
+    };
+    result.push_back({kOfNone * work, bound, make});
   }
-  if (MapPointer made = regular(size, execution)) return made;
-  const MapPointer turned = with_turns(size, Rows::kNone, execution);
-  if (!turned) return shifted(size, execution);
-  if (!rows && turns != 6) {
-    if (MapPointer made = lined(turned, size, execution)) return made;
+  const auto rows = request_.rows.value_or(Rows::kNone);
+  if (rows != Rows::kNone && (rows == Rows::kMirror || !edges_of_lines().empty())) {
+    const auto make = [=, this](const MapPointer&, Execution& execution) {
+      return with_or_none(asked(request_.tiling.poles, turns, rows), execution);
+    };
+    result.push_back({0, any, make});
   }
-  if (turned->quality().lost_part == 0 && (but_direction(*turned) < kPoorTurned || !budget_.goes_on())) return turned;
-  return unless_refused([&] { return cheaper(turned, shifted(size, execution)); },
-                        [&](const Error&) { return turned; });
+  const auto unless_done = [=, this](const MapPointer& best, const auto& bound) {
+    const bool is_as_asked = best && best->tiling() && rows != Rows::kNone && best->tiling()->rows == rows;
+    const bool is_done = is_as_asked || (best && (best->cost() <= kGood || is_regular(*best)));
+    return is_done ? kInfinity : bound();
+  };
+  const auto bound_of_turned = [=, this](const MapPointer& best, Execution& execution) {
+    return unless_done(best, [&] { return this->bound_of_turned(tiles, execution); });
+  };
+  result.push_back({work, bound_of_turned, make_turned});
+  if (!request_.rows && turns != 6 && part_->triangle_count() <= kMostLinedTriangles) {
+    const auto bound = [=, this](const MapPointer& best, Execution&) {
+      return best && best->tiling() && best->turns() == turns && length_of_lines() >= 1 ? 0 : kInfinity;
+    };
+    const auto make = [=, this](const MapPointer& best, Execution& execution) {
+      return lined(best, asked(request_.tiling.poles, turns, Rows::kWhole), execution);
+    };
+    result.push_back({kOfLines * work, bound, make, 1, true});
+  }
+  const auto bound_of_shifted = [=, this](const MapPointer& best, Execution&) {
+    const bool is_whole =
+        best && (!best->tiling() || best->quality().lost_part == 0 || request_.tiling.poles.are_none());
+    return is_whole && but_direction(*best) < kPoorTurned ? kInfinity : unless_done(best, [] { return 0.0; });
+  };
+  result.push_back({kOfPoles * work, bound_of_shifted, shifted});
+  return result;
 }
 
 // The tiling whose rows end at hard edges, or run along them, if it costs hardly more than the one that turns and loses
 // nothing; null if none does.
-MapPointer TilingSearch::lined(const MapPointer& turned, const Size& size, Execution& execution) {
-  if (part_->triangle_count() > kMostLinedTriangles) return nullptr;
-  double length = 0;
-  for (const int e : edges_of_lines()) length += part_->surface->edge_lengths[e];
-  length /= std::sqrt(part_->area);
-  if (length < 1 || !budget_.goes_on()) return nullptr;
-  const double most = turned->cost() + std::min(kLined * length, kMostLined);
+MapPointer TilingSearch::lined(const MapPointer& turned, TileOptions options, Execution& execution) {
+  const double most = turned->cost() + std::min(kLined * length_of_lines(), kMostLined);
   for (const tiling::Rows rows : {tiling::Rows::kWhole, tiling::Rows::kFree}) {
-    const MapPointer made = with_turns(size, rows, execution);
+    options.rows = rows;
+    const MapPointer made = with_or_none(options, execution);
     if (made && made->quality().lost_part == 0 && made->cost() < most) return made;
   }
   return nullptr;
+}
+
+// Over the square root of the area.
+double TilingSearch::length_of_lines() {
+  double length = 0;
+  for (const int e : edges_of_lines()) length += part_->surface->edge_lengths[e];
+  return length / std::sqrt(part_->area);
 }
 
 // The marked edges that may be lines: all where lines are asked for.
@@ -227,87 +300,77 @@ const std::vector<int>& TilingSearch::edges_of_lines() {
   return *edges_of_lines_;
 }
 
-MapPointer TilingSearch::with_turns(const Size& size, tiling::Rows rows, Execution& execution) {
-  return unless_refused([&] { return with(request_.tiling.poles, size, request_.tiling.turns, rows, execution); },
-                        [](const Error&) { return MapPointer(); });
-}
-
-// The tiling without poles where the best map is asked for and needs no cones; else null.
-MapPointer TilingSearch::regular(const Size& size, Execution& execution) {
-  const PoleChoice& poles = request_.tiling.poles;
-  const bool is_best = request_.main == Main::kAutomatic && poles.is_open() && has_tilings_without_poles();
-  if (!is_best || guess_without_poles(execution) > kRegular) return nullptr;
-  const MapPointer made = unless_refused(
-      [&] {
-        return with({0, {}, poles.allowed}, size, 1, tiling::Rows::kNone, execution);
-      },
-      [](const Error&) { return MapPointer(); });
-  return made && made->quality().lost_part == 0 && but_direction(*made) <= kRegular ? made : nullptr;
-}
-
 // The one of least cost among those with the poles that are asked for, or, where that is left open, with as many as the
 // density asks for, with none, or with two more: on few faces the density is less even than it was expected when poles
 // were placed.
-MapPointer TilingSearch::shifted(const Size& size, Execution& execution) {
-  const PoleChoice& poles = request_.tiling.poles;
+MapPointer TilingSearch::shifted(const TileOptions& options, Execution& execution) {
   const auto with_count = [&](int count) {
-    return with({count, {}, poles.allowed}, size, 1, tiling::Rows::kNone, execution);
+    TileOptions own = options;
+    own.poles = {count, {}, options.poles.allowed};
+    return with_or_none(own, execution);
   };
-  const auto as_asked = [&] { return with(poles, size, 1, tiling::Rows::kNone, execution); };
-  if (!poles.is_open()) return as_asked();
-  const bool may_have_none = has_tilings_without_poles();
-  const MapPointer first =
-      may_have_none ? unless_refused(as_asked, [](const Error&) { return MapPointer(); }) : as_asked();
-  if (!first) return with_count(0);
-  if (first->pole_count() == 0) return first;
+  const MapPointer first = with_or_none(options, execution);
+  if (!options.poles.is_open() || (first && first->pole_count() == 0)) return first;
   MapPointer best = first;
-  if (may_have_none && budget_.goes_on()) {
-    best = unless_refused(
-        [&] { return guess_without_poles(execution) < but_direction(*first) ? cheaper(first, with_count(0)) : first; },
-        [&](const Error&) { return first; });
-  }
-  return with_more_poles(*first, best, with_count);
+  const bool may_have_none = has_tilings_without_poles() && (!first || budget_.goes_on());
+  if (may_have_none && (!first || guess_without_poles(execution) < but_direction(*first)))
+    best = cheaper(first, with_count(0));
+  if (!first) return best;
+  const bool is_evened = first->tiling()->evenness > 0 && first->tiling()->tiles >= kManyTiles;
+  const bool are_few = is_evened && part_->triangle_count() <= kFewTriangles && first->drawn_range() > kUnevenTiling &&
+                       first->pole_count() < kMostPoles;
+  return are_few && budget_.goes_on() ? cheaper(best, with_count(first->pole_count() + kMorePoles)) : best;
 }
 
-template <class WithCount>
-MapPointer TilingSearch::with_more_poles(const Map& first, const MapPointer& best, const WithCount& with_count) {
-  const bool is_evened = first.tiling()->evenness > 0 && first.tiling()->tiles >= kManyTiles;
-  const bool is_quick = part_->triangle_count() <= kFewTriangles;
-  const bool are_few = is_evened && is_quick && first.drawn_range() > kUnevenTiling && first.pole_count() < kMostPoles;
-  if (!are_few || !budget_.goes_on()) return best;
-  return unless_refused([&] { return cheaper(best, with_count(first.pole_count() + kMorePoles)); },
-                        [&](const Error&) { return best; });
+TileOptions TilingSearch::kind(const PoleChoice& poles, int turns, tiling::Rows rows) const {
+  TileOptions result = request_.tiling;
+  result.poles = poles;
+  result.poles.allowed = request_.tiling.poles.allowed;
+  result.evenness = request_.evenness;
+  result.moves.clear();
+  if (request_.tiling.turns != 1) result.lattice = request_.tiling.turns == 6 ? kHex : kSquare;
+  result.turns = turns;
+  result.rows = rows;
+  return result;
+}
+
+TileOptions TilingSearch::of_tiles(TileOptions kind, double tiles) {
+  kind.tiles = tiles;
+  return kind;
+}
+
+bool TilingSearch::is_regular(const Map& made) {
+  return made.tiling() && made.turns() == 1 && made.pole_count() == 0 && made.quality().lost_part == 0 &&
+         but_direction(made) <= kRegular;
+}
+
+// Null where it is refused.
+MapPointer TilingSearch::with_or_none(const TileOptions& options, Execution& execution) {
+  return unless_refused([&] { return with(options, execution); },
+                        [&](const Error&) {
+                          refused_ = std::current_exception();
+                          return MapPointer();
+                        });
 }
 
 // @throws what tilings throw; TopologyError where too much is lost
-MapPointer TilingSearch::with(const PoleChoice& poles, const Size& size, int turns, tiling::Rows rows,
-                              Execution& execution) {
-  TileOptions options = request_.tiling;
-  options.poles = poles;
-  options.tiles = size.tiles;
-  options.evenness = request_.evenness;
-  options.size_counts = size.size_counts;
-  options.max_turn = size.max_turn.value_or(options.max_turn);
-  options.moves = size.moves;
-  if (size.is_of_turns) options.lattice = request_.tiling.turns == 6 ? kHex : kSquare;
-  options.turns = turns;
-  options.rows = rows;
-  options.marked = rows == tiling::Rows::kNone ? std::vector<mesh::Pair>() : marked();
-  if (turns == 1 || rows != tiling::Rows::kNone) options.missing.reset();
-  SeamlessPointer made = structure_->tilers().tile(options, execution);
+MapPointer TilingSearch::with(TileOptions options, Execution& execution) {
+  options.marked = options.rows == tiling::Rows::kNone ? std::vector<mesh::Pair>() : marked();
+  if (options.turns == 1 || options.rows != tiling::Rows::kNone) options.missing.reset();
+  const SeamlessPointer made = structure_->tilers().tile(options, execution);
   if (const double lost = made->quality.lost_part; !(lost < kMostLost))
     throw TopologyError("it would lose " + percent(lost) + " of its area, as the mesh is too coarse: subdivide it");
-  return std::make_shared<const Map>(part_, structure_, under_texture(std::move(made)), execution);
+  auto result = std::make_shared<SeamlessMap>(*made);
+  result->asked = std::move(options);
+  see_under_texture(*result);
+  return std::make_shared<const Map>(part_, structure_, std::move(result), execution);
 }
 
-// The tiling with the direction that is seen of the texture it is made for: that may turn, too.
-SeamlessPointer TilingSearch::under_texture(SeamlessPointer made) const {
+// With the direction that is seen of the texture it is made for: that may turn, too.
+void TilingSearch::see_under_texture(SeamlessMap& made) const {
   const int turns = request_.tiling.turns;
-  const auto& direction = made->quality.direction;
-  if (!direction || direction->turns == turns) return made;
-  auto result = std::make_shared<SeamlessMap>(*made);
-  result->quality.direction = uv::under(*direction, turns);
-  return result;
+  auto& direction = made.quality.direction;
+  if (direction && direction->turns != turns) direction = uv::under(*direction, turns);
 }
 
 }  // namespace holomorph::choice

@@ -1,10 +1,11 @@
 // The tilings of a part, of a wanted density: the numbers of poles and of tiles that give it.
 #pragma once
 
-#include <functional>
+#include <exception>
 #include <optional>
 #include <vector>
 
+#include "choice/candidate.h"
 #include "choice/map.h"
 #include "choice/request.h"
 #include "choice/size.h"
@@ -24,35 +25,34 @@ class TilingSearch {
   double expected_work() const;
   /// About what a tiling without poles costs, of which only the density is known. @throws as `Tilers::tiler`
   double guess_without_poles(Execution& execution);
-  /// The tilings that this many numbers of tiles give, until the density is the wanted one. @throws what refuses the
-  /// first one
+  /// About the least that a tiling costs; 0 where that is not known.
+  double bound(double tiles, Execution& execution);
+  /// The tilings that may be made with so many tiles; this outlives them.
+  std::vector<Candidate> candidates(double tiles, bool size_counts);
+  /// What refused the last one that could not be made; null for none.
+  const std::exception_ptr& refused() const { return refused_; }
+  /// The tiling of least cost, and as below. @throws what refuses the last one, if none can be made
   std::vector<MapPointer> of_density(double density, int tries, Execution& execution);
+  /// A tiling, and others of its kind with other numbers of tiles, so many in all, until the density is the wanted one.
+  std::vector<MapPointer> resized(MapPointer first, double density, int tries, Execution& execution);
   /// The one whose density is nearest, with the poles moved that are to be moved after the rounding.
   MapPointer moved(const std::vector<MapPointer>& tilings, double density, bool size_counts, Execution& execution);
   /// The tiling stretched to a density; null where it cannot be.
   MapPointer stretched(const Map& made, double density, Execution& execution) const;
-  /// A tiling whose rows may run less level: other numbers of tiles fit around a limb. Null where there is none.
-  MapPointer turned(double density, Execution& execution);
+  /// One of its kind whose rows may run less level: other numbers of tiles fit around a limb. Null where there is none.
+  MapPointer less_level(const Map& made, double density, Execution& execution);
 
  private:
-  // What differs between the tilings that are tried.
-  struct Size {
-    double tiles = 0;
-    bool size_counts = false;
-    std::optional<double> max_turn = {};
-    std::vector<tiling::PoleMove> moves = {};
-    bool is_of_turns = false;  // with the lattice of turns
-  };
-
-  MapPointer of_tiles(Size size, Execution& execution);
-  MapPointer lined(const MapPointer& turned, const Size& size, Execution& execution);
-  MapPointer with_turns(const Size& size, tiling::Rows rows, Execution& execution);
-  MapPointer regular(const Size& size, Execution& execution);
-  MapPointer shifted(const Size& size, Execution& execution);
-  MapPointer with(const PoleChoice& poles, const Size& size, int turns, tiling::Rows rows, Execution& execution);
-  template <class WithCount>
-  MapPointer with_more_poles(const Map& first, const MapPointer& best, const WithCount& with_count);
-  SeamlessPointer under_texture(SeamlessPointer made) const;
+  double bound_of_turned(double tiles, Execution& execution);
+  MapPointer lined(const MapPointer& turned, TileOptions options, Execution& execution);
+  double length_of_lines();
+  MapPointer shifted(const TileOptions& options, Execution& execution);
+  TileOptions kind(const PoleChoice& poles, int turns, tiling::Rows rows) const;
+  static TileOptions of_tiles(TileOptions kind, double tiles);
+  static bool is_regular(const Map& made);
+  MapPointer with_or_none(const TileOptions& options, Execution& execution);
+  MapPointer with(TileOptions options, Execution& execution);
+  void see_under_texture(SeamlessMap& made) const;
   const std::vector<int>& edges_of_lines();
   std::vector<mesh::Pair> marked() const;
   bool has_tilings_without_poles() const { return part_->type.genus > 0 || part_->type.boundary_count > 1; }
@@ -61,6 +61,7 @@ class TilingSearch {
   StructurePointer structure_;
   Request request_;
   Budget& budget_;
+  std::exception_ptr refused_;
   std::optional<double> ratio_without_poles_;
   std::optional<std::vector<int>> edges_of_lines_;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "choice/automatic_structure.h"
 #include "mesh/hard_edges.h"
 #include "uv/appearance.h"
 
@@ -16,6 +17,16 @@ namespace {
 // of the part; how much of it is spent on islands where there is a tiling, and what is spent on them in any case.
 constexpr double kPlaced = 40, kLevel = 10'000, kRoundedPart = 8;
 constexpr double kBudget = 0.4, kLeastWork = 100'000;
+
+// Times that, where all else is poor, with more triangles than that; with fewer as much as they take.
+constexpr double kLonger = 5;
+constexpr int kQuickTriangles = 25'000;
+
+// A balanced map costs more than this part of what it does on few triangles, which tell that where there are many.
+constexpr double kOfCoarse = 0.7;
+// And the log map between two poles costs more: 2.3 to 30 were seen.
+constexpr double kOfLog = 2;
+constexpr int kMany = 2 * tiling::kFewTriangles;
 
 // What ask() finds; nothing where islands collapse or cannot be made: another map may be.
 template <class Ask>
@@ -62,15 +73,15 @@ MapPointer Untiled::at_once(Execution& execution) {
   return map(flat, "", execution);
 }
 
-MapPointer Untiled::islands(double most, std::optional<double> work, Execution& execution) {
-  if (!search_ || (!work && most < kPoor && !may_flatten())) return nullptr;
-  const double allowed = work.value_or(this->work());
-  return map(found_or_none([&] { return search_->best(most, allowed, execution); }), "", execution);
+MapPointer Untiled::islands(double most, double work, Execution& execution) {
+  if (!search_) return nullptr;
+  return map(found_or_none([&] { return search_->best(most, work, execution); }), "", execution);
 }
 
 MapPointer Untiled::instead(const std::string& why, Execution& execution) {
   if (!search_) return nullptr;
-  const LayoutPointer flat = found_or_none([&] { return search_->best(kInfinity, kInfinity, execution); });
+  LayoutPointer flat = found_or_none([&] { return search_->best(kInfinity, much_work(), execution); });
+  if (!flat) flat = found_or_none([&] { return search_->best(kInfinity, kInfinity, execution); });
   return flat ? map(flat, "it has " + why + "; " + how(*flat), execution) : nullptr;
 }
 
@@ -79,20 +90,38 @@ MapPointer Untiled::along(const flat::ChosenCuts& cuts, Execution& execution) co
   return map(search_->along(cuts, execution), "", execution);
 }
 
-MapPointer Untiled::balanced(double most, const std::string& why, Execution& execution) {
-  if (!conformal_) conformal_ = choice::form_map(part_, structure_, 0, is_upright_, "it was asked for", execution);
-  double least = conformal_->cost();
-  if (evenness_ > 0 && std::isfinite(least))
-    least -= (1 - flat::kEvenedCost) * uv::cost_of_squares(conformal_->quality());
-  if (!(least < most)) return nullptr;
-  const MapPointer made = form_map(why, execution);
-  return made->cost() < most ? made : nullptr;
+double Untiled::bound_of_balanced(double most, Execution& execution) {
+  if (!part_->has_positions()) return 0;
+  double seams = 0;
+  for (const int e : structure(execution)->seams(execution)) seams += structure_->triangulation()->edge_lengths[e];
+  const double seen =
+      std::max(uv::kSeam * seams / std::sqrt(part_->area), structure_->kind() == MapKind::kLog ? kOfLog : 0);
+  if (seen >= most || part_->triangle_count() <= kMany) return seen;
+  if (!of_coarse_) {
+    of_coarse_ = unless_refused(
+        [&] {
+          const tiling::CoarseLevel level =
+              structure_->tilers().levels(execution)->level(tiling::kFewTriangles, execution);
+          const PartPointer coarse = part_of(level.surface, part_->up, {}, execution);
+          const StructurePointer own = automatic_structure(coarse, {}, execution);
+          return form_map(coarse, own, 0, false, "", execution)->cost();
+        },
+        [](const Error&) { return 0.0; });
+  }
+  return std::max(seen, kOfCoarse * (evenness_ > 0 ? flat::kEvenedCost : 1) * *of_coarse_);
+}
+
+MapPointer Untiled::balanced(const std::string& why, Execution& execution) {
+  return form_map(part_, structure(execution), evenness_, is_upright_, why, execution);
 }
 
 MapPointer Untiled::best(const std::string& why, Execution& execution) {
-  const MapPointer made = form_map(why, execution);
-  const MapPointer flat = islands(made->cost(), kInfinity, execution);
-  return flat ? flat : made;
+  MapPointer best = may_flatten() ? islands(kInfinity, work(), execution) : nullptr;
+  if (best && best->cost() <= kGood) return best;
+  if (!best || bound_of_balanced(best->cost(), execution) < best->cost())
+    best = cheaper(best, balanced(why, execution));
+  if (best->cost() < kPoor) return best;
+  return cheaper(best, islands(best->cost(), much_work(), execution));
 }
 
 MapPointer Untiled::one_island(const SeamlessMap& tiling, const std::string& why, Execution& execution) const {
@@ -116,8 +145,9 @@ MapPointer Untiled::map(LayoutPointer flat, std::string why, Execution& executio
   return std::make_shared<const Map>(part_, structure_, std::move(flat), std::move(why), execution);
 }
 
-MapPointer Untiled::form_map(const std::string& why, Execution& execution) const {
-  return choice::form_map(part_, structure_, evenness_, is_upright_, why, execution);
+const StructurePointer& Untiled::structure(Execution& execution) {
+  if (!structure_) structure_ = automatic_structure(part_, {}, execution);
+  return structure_;
 }
 
 bool Untiled::may_flatten() {
@@ -130,6 +160,8 @@ bool Untiled::may_flatten() {
   }
   return *may_flatten_;
 }
+
+double Untiled::much_work() const { return part_->triangle_count() > kQuickTriangles ? kLonger * work() : kInfinity; }
 
 double Untiled::work() const {
   const double count = part_->triangle_count();

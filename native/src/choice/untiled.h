@@ -6,15 +6,13 @@
 #include <optional>
 #include <string>
 
+#include "choice/candidate.h"
 #include "choice/map.h"
 #include "flat/island_search.h"
 
 namespace holomorph::choice {
 
-/// What islands may cost (see uv/appearance.h) to be taken at once: less than a tiling does with poles.
-inline constexpr double kGood = 0.8;
 inline constexpr double kFlat = 0.3;  ///< what is minded of squares that hardly differ
-inline constexpr double kPoor = 2.4;  ///< cost of a map, from which on islands are looked for whatever the curvature
 /// Length of a seam across the smooth over the square root of the area, that is not minded.
 inline constexpr double kMostSoft = 0.02;
 /// Curvature off hard edges, that of two spheres: where there is more, islands have long seams.
@@ -24,6 +22,7 @@ inline constexpr double kMostCurved = 8 * std::numbers::pi;
 /// lines: on a smooth part they take longer than a tiling, and cost more.
 class Untiled {
  public:
+  /// @param structure null to make it when it is needed
   Untiled(PartPointer part, StructurePointer structure, double evenness, bool is_upright, Execution& execution);
 
   /// The best islands so far, if they were looked for.
@@ -31,14 +30,22 @@ class Untiled {
   /// The islands that cost so little that hardly another map costs less, if there are any, or better ones.
   MapPointer at_once(Execution& execution);
   /// The islands of least cost, if it is below `most`, and they are found by so much work (flat/island_search.h).
-  /// @param work none: a part of that on a tiling
-  MapPointer islands(double most, std::optional<double> work, Execution& execution);
+  MapPointer islands(double most, double work, Execution& execution);
+  /// A part of the work on a tiling, for islands beside it.
+  double work() const;
+  /// That on islands where all else is poor.
+  double much_work() const;
+  /// Whether it is so little curved off hard edges that islands may cost less than a tiling.
+  bool may_flatten();
   /// The islands, however long they take, where no other map is tried.
   MapPointer instead(const std::string& why, Execution& execution);
   /// Those between chosen cuts. @throws TopologyError where there are none
   MapPointer along(const flat::ChosenCuts& cuts, Execution& execution) const;
-  /// The balanced map, if it costs less than `most`. It is evened only where that may bring it there.
-  MapPointer balanced(double most, const std::string& why, Execution& execution);
+  /// About the least that the balanced map costs: its seams, and, where these cost less than `most`, what it costs on
+  /// few triangles.
+  double bound_of_balanced(double most, Execution& execution);
+  /// The balanced map.
+  MapPointer balanced(const std::string& why, Execution& execution);
   /// The one of least cost, however long islands take.
   MapPointer best(const std::string& why, Execution& execution);
   /// A tiling scaled to the wanted size, as one island with its seams; null on an intrinsic surface.
@@ -46,16 +53,14 @@ class Untiled {
 
  private:
   MapPointer map(LayoutPointer flat, std::string why, Execution& execution) const;
-  MapPointer form_map(const std::string& why, Execution& execution) const;
-  bool may_flatten();
-  double work() const;
+  const StructurePointer& structure(Execution& execution);
 
   PartPointer part_;
   StructurePointer structure_;
   double evenness_;
   bool is_upright_;
   std::unique_ptr<flat::IslandSearch> search_;
-  MapPointer conformal_;
+  std::optional<double> of_coarse_;  // what the conformal map costs on few triangles
   std::optional<bool> may_flatten_;
 };
 

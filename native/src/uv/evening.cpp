@@ -131,15 +131,16 @@ constexpr StrainEnergy::Rings kRings[] = {{2, 0}, {4, 0}, {8, 0}, {16, 0}, {4, 2
 // The next rings are tried if the last ones left at most this part of the flipped area: where some do not help, larger
 // ones rarely do.
 constexpr double kHelps = 0.9;
-// Factors of the weight of size, one after the other where the map flips more than before. A little less size is often
-// enough, since few triangles decide; where more than this part of the area is flipped, at most half is tried next.
-constexpr double kFactors[] = {1, 0.93, 0.86, 0.75, 0.5, 0.25, 0.125, 0.0625};
+// Rings of triangles around flipped ones, tried in turn, in which the function fades to the map before, where it flips
+// no more than this part of the area.
+constexpr int kFading[] = {2, 4, 8, 16};
 constexpr double kMuch = 1e-4;
+// Factors of the weight of size, one after the other where the map flips more than before.
+constexpr double kFactors[] = {1, 0.5, 0.25, 0.125, 0.0625};
 // Where this part of the area is flipped beyond what was, the whole map is wrong, and half the weight is tried.
 constexpr double kTooMuch = 0.05;
-// All surroundings together may take as much work as this number of steps on the whole surface. A small mesh counts as
-// one of kFewVertices: it costs little, and its surroundings soon are all of it.
-constexpr double kMostTurning = 100;
+// A small mesh counts as one of so many vertices when flipped triangles are turned back: it costs little, and their
+// surroundings soon are all of it.
 constexpr int kFewVertices = 5000;
 
 // The weight of size in the energy. Where strain is small and size counts by its square, minimising takes the power
@@ -203,14 +204,38 @@ struct Found {
   double flipped_more;  // than in the map before, a part of the area
 };
 
+// Lessens delta around the triangles that it flips, by ever more rings, until no more area is flipped.
+// @return the area that it then flips beyond `most_flipped`
+double fade(const StrainEnergy& energy, double lambda, double most_flipped, Function& delta, Execution& execution) {
+  const Function whole = delta;
+  std::vector<char> flipped(delta.size(), 0);
+  Function gradient, at_corners;
+  double beyond = 0;
+  for (const int rings : kFading) {
+    execution.report(0);
+    const std::vector<char> more = energy.flipped_corners(delta);
+    for (std::size_t v = 0; v < more.size(); ++v) flipped[v] |= more[v];
+    std::vector<char> inside = flipped;
+    delta = whole;
+    for (int ring = 0; ring < rings; ++ring, energy.grow(inside, 1)) {
+      for (std::size_t v = 0; v < delta.size(); ++v) {
+        if (inside[v]) delta[v] -= whole[v] / static_cast<double>(rings);
+      }
+    }
+    beyond = energy(delta, lambda, gradient, at_corners, execution.workers()).flipped - most_flipped;
+    if (beyond <= 0) break;
+  }
+  return beyond;
+}
+
 Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept& kept, double lambda,
-            const std::string& solver_name, int steps, double& vertex_steps, Execution& execution) {
+            const EveningOptions& options, double& vertex_steps, Execution& execution) {
   std::optional<Solvers> shifted;
   std::optional<TurnedSolver> turned;
   if (kept.turns.empty())
-    shifted.emplace(surface, kept, solver_name, execution);
+    shifted.emplace(surface, kept, options.solver, execution);
   else
-    turned.emplace(surface, kept, solver_name == kDiagonal);
+    turned.emplace(surface, kept, options.solver == kDiagonal);
   const auto make = [&](const Function& delta) -> Precondition {
     const Array<double> weights = energy.edge_weights(surface, delta, lambda);
     if (turned) {
@@ -225,8 +250,8 @@ Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept
   const double flipped_before = descent.begin(Function(surface.vertex_count, 0.0)).flipped;
   // Whole numbers flip triangles at the cones of a map that turns: these are turned back as well.
   const double most_flipped = kept.turns.empty() ? flipped_before : 0;
-  for (int step = 0; step < steps; ++step) {
-    execution.part(kWhole * step / steps, kWhole * (step + 1) / steps);
+  for (int step = 0; step < options.steps; ++step) {
+    execution.part(kWhole * step / options.steps, kWhole * (step + 1) / options.steps);
     execution.report(0);
     if (!descent.step()) break;
   }
@@ -240,26 +265,30 @@ Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept
     beyond = turn_back(energy, kept, lambda, rings, delta, vertex_steps, execution);
     if (beyond > kHelps * before) break;
   }
-  return {std::move(delta), beyond - (flipped_before - most_flipped)};
+  double more = beyond - (flipped_before - most_flipped);
+  if (options.turning > 0 && more > 0 && more <= kMuch) more = fade(energy, lambda, flipped_before, delta, execution);
+  return {std::move(delta), more};
 }
 
 }  // namespace
 
-std::vector<char> StrainEnergy::near_flipped(const Function& delta, int rings) const {
-  std::vector<char> inside(vertex_count(), 0);
+std::vector<char> StrainEnergy::flipped_corners(const Function& delta) const {
+  std::vector<char> result(vertex_count(), 0);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     if (!flips(t, delta)) continue;
-    for (const int v : triangles_[t].vertices) inside[v] = 1;
+    for (const int v : triangles_[t].vertices) result[v] = 1;
   }
-  // Each ring adds the triangles that touch those before.
+  return result;
+}
+
+void StrainEnergy::grow(std::vector<char>& marked, int rings) const {
   for (int ring = 0; ring < rings; ++ring) {
-    const std::vector<char> before = inside;
+    const std::vector<char> before = marked;
     for (const Triangle& triangle : triangles_) {
       if (!any(before, triangle.vertices)) continue;
-      for (const int v : triangle.vertices) inside[v] = 1;
+      for (const int v : triangle.vertices) marked[v] = 1;
     }
   }
-  return inside;
 }
 
 // Gives the triangle the shape that it has under the map with these derivatives: from now on z is the coordinate in the
@@ -277,9 +306,12 @@ void StrainEnergy::Triangle::keep_shape(const Derivatives& map) {
 }
 
 std::vector<StrainEnergy::Patch> StrainEnergy::around_flipped(const Function& delta, Rings rings) const {
-  const std::vector<char> inside = near_flipped(delta, rings.all);
-  const std::vector<char> inner =
-      rings.inner > 0 ? near_flipped(delta, rings.inner) : std::vector<char>(vertex_count(), 0);
+  std::vector<char> inner = flipped_corners(delta), inside = inner;
+  grow(inside, rings.all);
+  if (rings.inner > 0)
+    grow(inner, rings.inner);
+  else
+    inner.assign(vertex_count(), 0);
   mesh::UnionFind sets(vertex_count());
   const auto free_corner = [&](const Triangle& triangle) {
     return std::ranges::find_if(triangle.vertices, [&](int v) { return inside[v] != 0; });
@@ -337,24 +369,21 @@ std::vector<StrainEnergy::Patch> StrainEnergy::around_flipped(const Function& de
 }
 
 uv::UvArray evened(const mesh::Surface& surface, uv::UvArray uv, const Kept& kept, double evenness,
-                   Execution& execution, const std::string& solver, int steps) {
-  if (evenness == 0) return uv::UvArray::Zero(surface.vertex_count, 2);
+                   Execution& execution, const EveningOptions& options) {
+  uv::UvArray result = uv::UvArray::Zero(surface.vertex_count, 2);
+  if (evenness == 0) return result;
   const StrainEnergy energy(surface, uv, kept.poles, kept.turns, execution.workers());
   uv.resize(0, 2);  // the energy knows it, and its memory is free for the descent
   // The first weight of size with which no more area is flipped than before. If there is none, the map stays as it is.
-  double most = 1, vertex_steps = kMostTurning * std::max(surface.vertex_count, kFewVertices);
+  double vertex_steps = options.turning * std::max(surface.vertex_count, kFewVertices);
   for (const double factor : kFactors) {
-    if (factor > most) continue;
-    const Found found =
-        least(surface, energy, kept, factor * lambda_of(evenness), solver, steps, vertex_steps, execution);
-    if (found.flipped_more > kMuch) most = factor / 2;
+    const Found found = least(surface, energy, kept, factor * lambda_of(evenness), options, vertex_steps, execution);
     if (found.flipped_more > 0) continue;
-    uv::UvArray result(surface.vertex_count, 2);
     for_rows(execution.workers(), surface.vertex_count,
              [&](int v) { result.row(v) << found.delta[v].real(), found.delta[v].imag(); });
-    return result;
+    break;
   }
-  return uv::UvArray::Zero(surface.vertex_count, 2);
+  return result;
 }
 
 double strain(const mesh::Surface& surface, const uv::UvArray& uv, const Kept& kept, double evenness,

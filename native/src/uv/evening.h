@@ -18,24 +18,27 @@ inline constexpr double kUsualEvenness = 0.5;
 /// power on most surfaces. The median of 25 meshes is 0.57; tori have 0.64.
 inline constexpr double kUsualPower = 0.6;
 
+/// How far evening goes.
+struct EveningOptions {
+  /// "auto", "direct" or "multigrid" of a map that only shifts; kDiagonal of one that turns and is nearly even.
+  std::string solver = "auto";
+  int steps = 40;  ///< from a conformal map: after fewer the energy hardly falls
+  /// What turning flipped triangles back may take, in steps on the whole surface; 0: they stay.
+  double turning = 100;
+};
 inline constexpr const char* kDiagonal = "diagonal";
-
-/// Steps of a descent from a conformal map: after fewer the energy hardly falls.
-inline constexpr int kEveningSteps = 40;
 
 /// Returns the function, #V x 2, that gives the map the least StrainEnergy when it is added at the vertices. Triangles
 /// that it flips are turned back until no more area is flipped than before. Where moving their neighbours is not
-/// enough, the weight of size is lowered again and again. At last nothing is added.
+/// enough, the function fades around them; then the weight of size is lowered again and again. At last nothing is
+/// added.
 ///
 /// Method: gradient descent, preconditioned by the Laplacian closest to the second derivatives, which is made anew
 /// while the energy falls quickly. Then limited-memory BFGS with the last Laplacian.
 /// @param uv #C x 2, with translations for jumps. @param evenness from 0, which gives 0, to 1
-/// @param steps at most, before flipped triangles are turned back
-/// @param solver "auto", "direct" or "multigrid" of a map that only shifts; kDiagonal of one that turns and is nearly
-/// even
 /// @pre the surface is connected and has no isolated vertices. @throws SolverError, Cancelled
 uv::UvArray evened(const mesh::Surface& surface, uv::UvArray uv, const Kept& kept, double evenness,
-                   Execution& execution, const std::string& solver = "auto", int steps = kEveningSteps);
+                   Execution& execution, const EveningOptions& options = {});
 
 /// Returns the StrainEnergy of the map itself, with the weight of size that this evenness gives. @param uv, kept as
 /// above

@@ -88,6 +88,10 @@ class StrainEnergy {
   /// `rings.inner` inner rings keep the shape that the map without delta gives them, and so flip no more than it does;
   /// 0 for none.
   std::vector<Patch> around_flipped(const Function& delta, Rings rings) const;
+  /// #V: marks the corners of triangles that delta flips.
+  std::vector<char> flipped_corners(const Function& delta) const;
+  /// Marks the corners of this number of rings of triangles around the vertices that are marked, #V.
+  void grow(std::vector<char>& marked, int rings) const;
 
  private:
   struct Derivatives {
@@ -111,8 +115,6 @@ class StrainEnergy {
 
   StrainEnergy() = default;
   void find_stars(int vertex_count);
-  // #V: marks the corners of triangles that delta flips, and of this number of rings around them.
-  std::vector<char> near_flipped(const Function& delta, int rings) const;
   Turned turned(std::size_t t) const { return turned_.empty() ? Turned{1, 1} : turned_[t]; }
   // Derivatives of the map on triangle t with the function added, and whether that flips it.
   Derivatives derivatives(std::size_t t, const Function& function) const;

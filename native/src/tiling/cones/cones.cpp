@@ -191,8 +191,12 @@ class Search {
     near_ = on_.near(places_, std::pow(kApart * between, 2) * net_.whole_area / options_.tiles);
     form_.take(places_, [&] { execution_.report(0); });
     execution_.report(0);
-    exposure_.prepare(places_, execution_.workers());
-    execution_.report(0);
+    for (std::size_t from = 0; from < places_.size(); from += kCandidates) {
+      const auto begin = places_.begin() + static_cast<std::ptrdiff_t>(from);
+      exposure_.prepare({begin, begin + std::min<std::ptrdiff_t>(kCandidates, places_.end() - begin)},
+                        execution_.workers());
+      execution_.report(0);
+    }
     prices_.resize(std::ssize(places_));
     for (Eigen::Index i = 0; i < prices_.size(); ++i) {
       const int v = places_[i];

@@ -7,7 +7,6 @@
 
 #include "base/constants.h"
 #include "tiling/cones/upright.h"
-#include "uv/evening.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -128,9 +127,9 @@ LatticeMap PlacedCones::map(const VectorXcd& y, const NearestMap::Rounded& round
 uv::UvArray PlacedCones::laid(const LatticeMap& map) const { return corner_uv(*surface_, space_.lattice, map); }
 
 VectorXcd PlacedCones::evened(VectorXcd y, const NearestMap::Rounded& rounded, double evenness,
-                              Execution& execution) const {
+                              const uv::EveningOptions& options, Execution& execution) const {
   if (evenness == 0) return y;
-  const uv::UvArray delta = uv::evened(*surface_, laid(map(y, rounded)), kept(), evenness, execution);
+  const uv::UvArray delta = uv::evened(*surface_, laid(map(y, rounded)), kept(), evenness, execution, options);
   for (int v = 0; v < surface_->vertex_count; ++v) y[v] += Complex(delta(v, 0), delta(v, 1));
   return y;
 }
@@ -139,7 +138,8 @@ std::vector<NearestMap::Rounded> PlacedCones::nearest(double tiles) const {
   return nearest_.round(std::sqrt(tiles / net_.whole_area));
 }
 
-PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, int tries, Execution& execution) const {
+PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, int tries, const uv::EveningOptions& options,
+                                          Execution& execution) const {
   execution.stage("rounding", 0, 0.2);
   execution.report(0);
   const std::vector<NearestMap::Rounded> nearest = this->nearest(tiles);
@@ -151,7 +151,7 @@ PlacedCones::Judged PlacedCones::best_map(double tiles, double evenness, int tri
     execution.stage("evening", 0.2 + 0.8 * i / tries, 0.2 + 0.8 * (i + 1) / tries);
     const VectorXcd y = nearest_.functions(nearest[i], false);  // conformal; evening may begin from a map more level
     const VectorXcd begin = nearest[i].is_level && evenness > 0 ? nearest_.functions(nearest[i], true) : y;
-    LatticeMap map = this->map(evened(begin, nearest[i], evenness, execution), nearest[i]);
+    LatticeMap map = this->map(evened(begin, nearest[i], evenness, options, execution), nearest[i]);
     const uv::UvArray uv = laid(map);
     const std::pair bad(wrong_area(*surface_, net_, uv, space_.lattice.k, missing_), strain(uv, evenness, execution));
     if (bad < best.bad) best = {std::move(map), laid(this->map(y, nearest[i])), bad};

@@ -13,6 +13,7 @@
 #include "tiling/cones/lines.h"
 #include "tiling/cones/rounding.h"
 #include "tiling/cones/turned_space.h"
+#include "uv/evening.h"
 #include "uv/turned_functions.h"
 #include "uv/uv_map.h"
 
@@ -36,7 +37,8 @@ class PlacedCones {
     std::pair<double, double> bad{kInfinity, 0};
   };
   /// The best of the maps by so many of the nearest whole numbers.
-  Judged best_map(double tiles, double evenness, int tries, Execution& execution) const;
+  Judged best_map(double tiles, double evenness, int tries, const uv::EveningOptions& options,
+                  Execution& execution) const;
   const std::vector<int>& missing() const { return missing_; }  ///< #V, of the cones
   const TurnLattice& lattice() const { return space_.lattice; }
 
@@ -49,7 +51,7 @@ class PlacedCones {
   // The strain of a map in the plane, with what is minded of rows that are not level.
   double strain(const uv::UvArray& laid, double evenness, Execution& execution) const;
   Eigen::VectorXcd evened(Eigen::VectorXcd y, const NearestMap::Rounded& rounded, double evenness,
-                          Execution& execution) const;
+                          const uv::EveningOptions& options, Execution& execution) const;
   uv::Kept kept() const;
 
   std::shared_ptr<const mesh::Surface> surface_;

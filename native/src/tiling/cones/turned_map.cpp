@@ -13,6 +13,7 @@
 #include "tiling/cones/net.h"
 #include "tiling/cones/scale_form.h"
 #include "tiling/cones/upright.h"
+#include "uv/appearance.h"
 #include "uv/evening.h"
 
 namespace holomorph::tiling {
@@ -76,7 +77,10 @@ constexpr double kHelps = 0.5;              // of the wrong area: else no more i
 
 // Steps of evening on all triangles, once the level's map is carried there: what is left is near by. On many triangles
 // each step is light, as what it is preconditioned by would take longer than all else.
-constexpr int kFineSteps = 4, kLightSteps = 16, kLightTriangles = 60'000;
+constexpr int kLightTriangles = 60'000;
+const uv::EveningOptions kFine{.steps = 4}, kLight{uv::kDiagonal, 16};
+// What tells which start is best: there is no use in turning triangles of few back.
+const uv::EveningOptions kDraft{.turning = 0};
 
 // Cones of a level on another one, or on the surface itself. @param vertex of the level: there
 std::vector<int> moved(const mesh::Surface& surface, const std::vector<int>& vertex, const std::vector<int>& cones) {
@@ -135,44 +139,76 @@ void TurnedMaps::begin(Execution& execution) {
   is_carried_ = !level_.is_whole(*surface_) && levels_->has_triangles();
 }
 
-// Those of least strain and price that are found on few triangles, then a short search on the level of the map.
-std::vector<int> TurnedMaps::cones_of(const ConeOptions& wanted, Execution& execution) {
+// A short search on the level of the map, from those of least strain and price that are found on few triangles.
+std::vector<int> TurnedMaps::cones_of(int first, const ConeOptions& wanted, Execution& execution) {
   execution.stage("cones", 0, 0.8);
   const Execution::Within within(execution);
   execution.stage("cones", 0, 1);
+  const std::vector<int>& begun = start(first, execution).missing;
+  std::vector<int> missing = refined_cones(*level_.surface, begun, wanted, execution).missing;
+  return is_carried_ ? missing : moved(*surface_, level_.vertex, missing);
+}
+
+const TurnedMaps::Start& TurnedMaps::start(int first, Execution& execution) {
+  Start& result = starts_[first];
+  if (result.missing.empty()) result = best_start(options_of(first), execution);
+  return result;
+}
+
+TurnedMaps::Start TurnedMaps::best_start(const ConeOptions& wanted, Execution& execution) const {
   // Where any direction will do there is one start, for which there may be more.
   const CoarseLevel coarse = levels_->level(wanted.along ? kFewTriangles : 2 * kFewTriangles, execution);
   const std::vector<Cones> found = find_cones(*coarse.surface, wanted, execution);
   const Cones* best = &found[0];
+  double cost = kInfinity;
   std::pair<double, double> least{kInfinity, 0};
-  for (std::size_t i = 0; i < found.size() && found.size() > 1; ++i) {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto is_same = [&](const Cones& other) { return other.missing == found[i].missing; };
+    if (std::any_of(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(i), is_same)) continue;
     const double part = static_cast<double>(i) / static_cast<double>(found.size());
     execution.part(part, part);
     const Execution::Within one(execution);
     execution.report(0);
     const PlacedCones placed(coarse.surface, wanted, found[i].missing, execution);
-    std::pair<double, double> bad = placed.best_map(wanted.tiles, uv::kUsualEvenness, 1, execution).bad;
-    bad.second += found[i].price;
+    const PlacedCones::Judged made = placed.best_map(wanted.tiles, uv::kUsualEvenness, 1, kDraft, execution);
+    const std::pair<double, double> bad(made.bad.first, made.bad.second + found[i].price);
     if (bad < least) least = bad, best = &found[i];
+    const uv::UvArray laid = corner_uv(*coarse.surface, placed.lattice(), made.map);
+    const uv::Quality quality = uv::quality(*coarse.surface, laid, execution.workers());
+    cost = std::min(cost, uv::cost_of_squares({quality.density_ratio, quality.mean_angle}));
   }
   std::vector<int> vertex = coarse.vertex;
   for (int& v : vertex) v = level_.collapsed[v];
-  const std::vector<int> begun = moved(*level_.surface, vertex, best->missing);
-  std::vector<int> missing = refined_cones(*level_.surface, begun, wanted, execution).missing;
-  return is_carried_ ? missing : moved(*surface_, level_.vertex, missing);
+  return {moved(*level_.surface, vertex, best->missing), cost};
 }
 
-const PlacedCones& TurnedMaps::placed(int far, Execution& execution) {
-  std::unique_ptr<const PlacedCones>& found = placed_[far];
+int TurnedMaps::first_of(double tiles) const {
+  return std::clamp(static_cast<int>(std::lround(std::log2(options_.tiles / tiles))), 0, kMostLevels);
+}
+
+double TurnedMaps::guess(double tiles, Execution& execution) {
+  const std::lock_guard lock(one_at_a_time_);
+  if (!lines_.edges.empty() || !chosen_.empty()) return 0;
+  begin(execution);
+  return start(first_of(tiles), execution).cost;
+}
+
+ConeOptions TurnedMaps::options_of(int far) const {
+  ConeOptions result = options_;
+  result.tiles *= std::exp2(-far);
+  return result;
+}
+
+const PlacedCones& TurnedMaps::placed(int first, int far, Execution& execution) {
+  std::unique_ptr<const PlacedCones>& found = placed_[{first, far}];
   if (!found) {
-    ConeOptions wanted = options_;
-    wanted.tiles *= std::exp2(-far);
+    const ConeOptions wanted = options_of(far);
     if (!lines_.edges.empty()) {
       found = std::make_unique<PlacedCones>(surface_, wanted, lines_, execution);
     } else {
       std::vector<int> missing;
       if (chosen_.empty()) {
-        missing = cones_of(wanted, execution);
+        missing = cones_of(first, wanted, execution);
       } else {
         const Net net(*made_on());
         missing.assign(net.vertex_count(), 0);
@@ -195,7 +231,7 @@ LatticeMap TurnedMaps::on_surface(const LatticeMap& map, double evenness, Execut
   const uv::Kept kept = kept_of(*surface_, lattice, result);
   const bool is_large = static_cast<int>(surface_->triangles.size()) > kLightTriangles;
   const uv::UvArray delta = uv::evened(*surface_, corner_uv(*surface_, lattice, result), kept, evenness, execution,
-                                       is_large ? uv::kDiagonal : "auto", is_large ? kLightSteps : kFineSteps);
+                                       is_large ? kLight : kFine);
   for (int v = 0; v < surface_->vertex_count; ++v) result.y[v] += Complex(delta(v, 0), delta(v, 1));
   return result;
 }
@@ -213,16 +249,16 @@ void TurnedMaps::turn_upright(LatticeMap& map) const {
 TurnedMap TurnedMaps::turned_map(double tiles, double evenness, Execution& execution) {
   const std::lock_guard lock(one_at_a_time_);
   begin(execution);
-  const double times = options_.tiles / tiles;
   const bool are_chosen = !chosen_.empty();
-  const int first = are_chosen ? 0 : std::clamp(static_cast<int>(std::lround(std::log2(times))), 0, kMostLevels);
+  const int first = are_chosen ? 0 : first_of(tiles);
   const int last = first + (are_chosen ? 0 : kFurtherApart);
   PlacedCones::Judged best;
   const PlacedCones* winner = nullptr;
   for (int level = first; level <= last; ++level) {
-    const PlacedCones& tried = placed(level, execution);
+    const PlacedCones& tried = placed(first, level, execution);
     if (winner && tried.missing() == winner->missing()) continue;
-    PlacedCones::Judged other = tried.best_map(tiles, evenness, lines_.edges.empty() ? kTries : kLinedTries, execution);
+    PlacedCones::Judged other =
+        tried.best_map(tiles, evenness, lines_.edges.empty() ? kTries : kLinedTries, {}, execution);
     const bool helps = other.bad.first < kHelps * best.bad.first;
     if (other.bad < best.bad) best = std::move(other), winner = &tried;
     if (!helps || best.bad.first == 0) break;

@@ -39,9 +39,21 @@ class TurnedMaps {
   /// @param evenness as in uv/evening.h. @throws SolverError, Cancelled
   TurnedMap turned_map(double tiles, double evenness, Execution& execution);
 
+  /// About what is minded of the squares of such a map (uv/appearance.h), seen on few triangles, where cones are
+  /// searched for; 0 where they are not. What it begins with is kept.
+  double guess(double tiles, Execution& execution);
+
  private:
-  const PlacedCones& placed(int far, Execution& execution);
-  std::vector<int> cones_of(const ConeOptions& wanted, Execution& execution);
+  struct Start {
+    std::vector<int> missing;  // cones, #V of the level
+    double cost = 0;
+  };
+  const PlacedCones& placed(int first, int far, Execution& execution);
+  std::vector<int> cones_of(int first, const ConeOptions& wanted, Execution& execution);
+  const Start& start(int first, Execution& execution);
+  Start best_start(const ConeOptions& wanted, Execution& execution) const;
+  int first_of(double tiles) const;
+  ConeOptions options_of(int far) const;
   void begin(Execution& execution);
   const std::shared_ptr<const mesh::Surface>& made_on() const { return is_carried_ ? level_.surface : surface_; }
   LatticeMap on_surface(const LatticeMap& map, double evenness, Execution& execution) const;
@@ -52,9 +64,11 @@ class TurnedMaps {
   Lines lines_;
   std::vector<int> chosen_;
   std::shared_ptr<const Levels> levels_;
-  CoarseLevel level_;                                         // on which cones are searched for
-  bool is_carried_ = false;                                   // whether maps are made there, too
-  std::map<int, std::unique_ptr<const PlacedCones>> placed_;  // for half the tiles each
+  CoarseLevel level_;            // on which cones are searched for
+  bool is_carried_ = false;      // whether maps are made there, too
+  std::map<int, Start> starts_;  // for half the tiles each
+  // The first for that many tiles, and those that start like them and lie further apart.
+  std::map<std::pair<int, int>, std::unique_ptr<const PlacedCones>> placed_;
   std::mutex one_at_a_time_;
 };
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/errors.h"
 #include "mesh/mirror.h"
 #include "mesh/surface.h"
 #include "tiling/cones/turned_map.h"
@@ -76,6 +77,9 @@ class TurnedTiler {
 
   /// The number of tiles that suits the genus.
   double usual_tiles() const { return usual_tiles_; }
+
+  /// See TurnedMaps.
+  double guess(double tiles, Execution& execution) { return held(maps_).guess(tiles / (half_ ? 2 : 1), execution); }
 
   /// @throws TopologyError where most of the surface would collapse; SolverError; Cancelled
   TurnedTiling tile(double tiles, double evenness, Execution& execution);
