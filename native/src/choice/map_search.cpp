@@ -123,13 +123,13 @@ std::vector<MapPointer> MapSearch::tried(double density, int tries, bool leads, 
   return result;
 }
 
-// All maps of the part: islands and pieces first where it is not smooth; tilings, and cut open where one is uneven;
-// islands where these are poor; and the balanced map.
+// All maps of the part: islands and pieces first where it is not smooth, nor a ring; tilings, and cut open where one is
+// uneven; islands where these are poor; and the balanced map.
 std::vector<Candidate> MapSearch::candidates(double density, int tries, bool leads) {
   Untiled& untiled = held(untiled_);
   TilingSearch& tilings = held(tilings_);
   const double work = tilings.expected_work(), little = kOperations * untiled.work();
-  const bool is_long = !budget_->allows(work), is_flat = is_long || untiled.may_flatten();
+  const bool is_long = !budget_->allows(work), is_flat = is_long || (!is_ring() && untiled.may_flatten());
   const auto any = [](const MapPointer&, Execution&) { return 0.0; };
   const auto poor = [](const MapPointer& best, Execution&) { return best && best->cost() < kPoor ? kInfinity : 0.0; };
   const auto islands = [&untiled](double most_work) {
@@ -150,16 +150,16 @@ std::vector<Candidate> MapSearch::candidates(double density, int tries, bool lea
   };
   std::vector<Candidate> result, whole;
   const Candidate in_pieces{kOfPieces * little, any, pieces(false), kPieces, true};
-  if (is_flat) {
-    result.push_back(
-        {little, any, islands(is_long ? std::max(untiled.work(), work * kIslands) : untiled.work()), kFar});
-    result.push_back(in_pieces);
-  }
+  const bool is_good = flat_ && flat_->cost() <= kGood;
+  const double flat_work = is_long ? std::max(untiled.work(), work * kIslands) : untiled.work();
+  if (is_flat && !is_good) result.push_back({little, any, islands(flat_work), kFar});
+  if (is_flat) result.push_back(in_pieces);
   const double tiles = density * request_.part->area;
   const bool has_room = tiles >= kFewestTiles || is_ring() || tilings.is_strict();
-  if (has_room && (!flat_ || flat_->cost() > kGood || is_ring())) {
+  if (has_room && (!is_good || is_ring())) {
     whole = tilings.candidates(tiles, tries > 1);
-    whole.insert(whole.end() - 1, {kOfCut * work, any, pieces(true), kPieces});  // may do without poles, which are last
+    // Poles come last, and turn more rows than a cut is seen, but on a ring, which may need none.
+    whole.insert(whole.end() - (is_ring() ? 0 : 1), {kOfCut * work, any, pieces(true), kPieces});
   }
   std::ranges::move(whole, std::back_inserter(result));
   result.push_back({little, poor, islands(untiled.much_work()), kFar});
@@ -208,24 +208,20 @@ MapPointer MapSearch::fitted(const std::vector<MapPointer>& found, double densit
 
 MapPointer MapSearch::best_of_others(const MapPointer& made, const std::vector<MapPointer>& found, double density,
                                      const Window& window, double near, Execution& execution) {
-  const auto cost = [&](const MapPointer& one) { return one->cost() + missed(*one, density, window); };
   std::vector<MapPointer> others;
-  const auto best = [&] { return held(std::ranges::min_element(others, {}, cost), others); };
-  if (made->turns() == 1) others.push_back(stretched_or_turned(made, density, window, execution));
-  std::erase(others, nullptr);
-  if (!others.empty() && request_.main == Main::kSeamless) return others[0];
-  const bool is_fitting = !others.empty();
-  others.push_back(held(untiled_).best(kTooFew, execution));
-  if (is_fitting) return best();
+  if (made->turns() != 1) {
+    others = {less_bound(made, density, window, near, execution)};
+  } else if (const MapPointer fitting = stretched_or_turned(made, density, window, execution)) {
+    return request_.main == Main::kSeamless ? fitting : cheaper(fitting, held(untiled_).best(kTooFew, execution));
+  } else {
+    others = {held(untiled_).best(kTooFew, execution), held(untiled_).one_island(*made->tiling(), kTooFew, execution)};
+  }
   for (const MapPointer& one : found) {
     if (std::abs(relative_size(*one, density) - 1) <= near) others.push_back(one);
   }
-  if (made->turns() == 1) {
-    if (const MapPointer one = held(untiled_).one_island(*made->tiling(), kTooFew, execution)) others.push_back(one);
-  } else if (cost(best()) > kGood) {
-    others.push_back(less_bound(made, density, window, near, execution));
-  }
-  return best();
+  std::erase(others, nullptr);
+  const auto cost = [&](const MapPointer& one) { return one->cost() + missed(*one, density, window); };
+  return held(std::ranges::min_element(others, {}, cost), others);
 }
 
 MapPointer MapSearch::instead_of_refused(const std::string& why, Execution& execution) {
