@@ -159,7 +159,7 @@ std::vector<Candidate> MapSearch::candidates(double density, int tries, bool lea
   if (has_room && (!is_good || is_ring())) {
     whole = tilings.candidates(tiles, tries > 1);
     // Poles come last, and turn more rows than a cut is seen, but on a ring, which may need none.
-    whole.insert(whole.end() - (is_ring() ? 0 : 1), {kOfCut * work, any, pieces(true), kPieces});
+    whole.insert(whole.end() - (is_ring() ? 0 : 1), {kOfCut * work, any, pieces(true)});
   }
   std::ranges::move(whole, std::back_inserter(result));
   result.push_back({little, poor, islands(untiled.much_work()), kFar});

@@ -35,9 +35,8 @@ constexpr double kPoorTurned = 2.0;
 // meshes: 0.65 to 1.3, less on thin shells, and more with many small holes, which few triangles do not keep.
 constexpr double kOfGuess = 0.75;
 
-// Works over that of a tiling that turns: of one without poles, with lines, on all triangles, with poles, and of a
-// guess.
-constexpr double kOfNone = 0.5, kOfLines = 2, kOfPoles = 0.7, kOfGuessing = 0.3;
+// Works over that of a tiling that turns: of one without poles, with lines, on all triangles, and with poles.
+constexpr double kOfNone = 0.5, kOfLines = 2, kOfPoles = 0.7;
 
 // What rows that run along hard edges, and end there, are worth in the cost, which does not see them: for lines as long
 // as the square root of the area, and at most. They are tried where there are as many, and up to so many triangles:
@@ -131,7 +130,7 @@ double TilingSearch::expected_work() const {
 }
 
 double TilingSearch::guess_without_poles(Execution& execution) {
-  if (!budget_.allows(kOfGuessing * expected_work())) return kInfinity;
+  if (!budget_.allows(expected_work())) return kInfinity;
   if (!ratio_without_poles_) {
     ratio_without_poles_ =
         structure_->tilers().ratio_without_poles(request_.tiling.boundary, request_.evenness > 0, execution);
@@ -193,7 +192,7 @@ double TilingSearch::bound(double tiles, Execution& execution) {
 }
 
 double TilingSearch::bound_of_turned(double tiles, Execution& execution) {
-  if (!budget_.allows(kOfGuessing * expected_work())) return 0;
+  if (!budget_.allows(expected_work())) return 0;
   return unless_refused(
       [&] {
         const TileOptions turned = of_tiles(kind({}, request_.tiling.turns, tiling::Rows::kNone), tiles);

@@ -133,7 +133,7 @@ constexpr StrainEnergy::Rings kRings[] = {{2, 0}, {4, 0}, {8, 0}, {16, 0}, {4, 2
 constexpr double kHelps = 0.9;
 // Rings of triangles around flipped ones, tried in turn, in which the function fades to the map before, where it flips
 // no more than this part of the area.
-constexpr int kFading[] = {2, 4, 8, 16};
+constexpr int kFading[] = {2, 4, 8, 16, 32, 64};
 constexpr double kMuch = 1e-4;
 // Factors of the weight of size, one after the other where the map flips more than before.
 constexpr double kFactors[] = {1, 0.5, 0.25, 0.125, 0.0625};
