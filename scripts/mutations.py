@@ -304,7 +304,7 @@ MUTATIONS = (
         ("stretched-too-far", "factor <= kMostStretched)", "factor <= 9)", "native:TilingSearch*"),
         ("stretched-jumps", "std::abs((std::conj(line)", "0 * std::abs((std::conj(line)", "native:TilingSearch*"),
     )
-    | of(ROOM + "choice/request.h", ("budget-nested", "budget_.depth_++ == 0", "++budget_.depth_", "native:Budget*"))
+    | of(ROOM + "choice/candidate.h", ("budget-nested", "budget_.depth_++ == 0", "++budget_.depth_", "native:Budget*"))
     | of(
         ROOM + "choice/side_by_side.cpp",
         ("first-error", "part_ < part) return", "part_ > part) return", "native:SideBySide*"),

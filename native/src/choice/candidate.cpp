@@ -1,6 +1,7 @@
 #include "choice/candidate.h"
 
 #include "base/constants.h"
+#include "base/errors.h"
 
 namespace holomorph::choice {
 
@@ -10,10 +11,14 @@ MapPointer least(const std::vector<Candidate>& candidates, MapPointer best, Budg
   for (const Candidate& each : candidates) {
     const double from = done / all, to = (done += each.work) / all;
     nested(execution, from, from, [&] { execution.report(0); });
-    const double bound = nested(execution, from, from, [&] { return each.bound(best, execution); });
+    const double bound =
+        unless_refused([&] { return nested(execution, from, from, [&] { return each.bound(best, execution); }); },
+                       [](const Error&) { return 0.0; });
     if (!(bound < (best ? best->cost() : kInfinity))) continue;
     if (best && !budget.goes_on(each.work, each.times)) continue;
-    const MapPointer made = nested(execution, from, to, [&] { return each.make(best, execution); });
+    const MapPointer made =
+        unless_refused([&] { return nested(execution, from, to, [&] { return each.make(best, execution); }); },
+                       [](const Error&) { return MapPointer(); });
     best = each.judges && made ? made : cheaper(best, made);
   }
   return best;

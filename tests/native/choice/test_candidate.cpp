@@ -7,10 +7,13 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "base/errors.h"
 #include "choice/turned_parts.h"
 
 namespace holomorph::choice {
 namespace {
+
+constexpr double kMost = 1e6;  // of the budgets below
 
 // Maps of one part by their costs, of seams alone, and the order in which they are made.
 class Least : public testing::Test {
@@ -48,8 +51,6 @@ class Least : public testing::Test {
   std::vector<double> made_;
 };
 
-constexpr double kBudget = 1e6;  // of the budget
-
 TEST_F(Least, WhatIsBoundToCostMoreIsNotMade) {
   EXPECT_NEAR(found({candidate(1, 3), candidate(2, 2.5), candidate(2.6, 2.7), candidate(0, 2.8)}), 2.5, 1e-12);
   EXPECT_EQ(made_, (std::vector<double>{3, 2.5, 2.8}));
@@ -61,17 +62,70 @@ TEST_F(Least, ThereMayBeNone) {
 }
 
 TEST_F(Least, WhatTakesTooLongIsMadeWhereThereIsNoOther) {
-  Candidate longer = candidate(0, 1, 2 * kBudget);
-  EXPECT_NEAR(found({candidate(0, 3, 2 * kBudget), longer}), 3, 1e-12);
+  Candidate longer = candidate(0, 1, 2 * kMost);
+  EXPECT_NEAR(found({candidate(0, 3, 2 * kMost), longer}), 3, 1e-12);
   EXPECT_TRUE(budget_.was_short());
   longer.times = 3;
-  EXPECT_NEAR(found({candidate(0, 3, 2 * kBudget), longer}), 1, 1e-12);
+  EXPECT_NEAR(found({candidate(0, 3, 2 * kMost), longer}), 1, 1e-12);
+}
+
+TEST_F(Least, WhatIsRefusedIsLeftOut) {
+  Candidate unbound = candidate(0, 2), refused = candidate(0, 1);
+  unbound.bound = [](const MapPointer&, Execution&) -> double { throw TopologyError("no bound"); };
+  refused.make = [](const MapPointer&, Execution&) -> MapPointer { throw SolverError("no map"); };
+  EXPECT_NEAR(found({refused, candidate(0, 3), refused, unbound}), 2, 1e-12);
+  refused.make = [](const MapPointer&, Execution&) -> MapPointer { throw Cancelled("it was stopped"); };
+  EXPECT_THROW(found({refused}), Cancelled);
 }
 
 TEST_F(Least, ACandidateMayJudgeByMoreThanItsCost) {
   Candidate judge = candidate(0, 3), none = candidate(0, kInfinity);
   judge.judges = none.judges = true;
   EXPECT_NEAR(found({candidate(0, 2.5), judge, none}), 3, 1e-12);
+}
+
+TEST(Budget, AddsUpWhatIsSpentWithinOnce) {
+  Budget budget(0, 1e-3);
+  const auto expect_left = [&](double spent) {
+    EXPECT_TRUE(budget.allows(kMost - spent - 1));
+    EXPECT_FALSE(budget.allows(kMost - spent));
+    EXPECT_TRUE(budget.allows(kMost - spent, 2));
+  };
+  {
+    const Budget::Counting counting(budget);
+    EXPECT_TRUE(budget.goes_on());
+    Execution::count(1000);
+    {
+      const Budget::Counting within(budget);
+      Execution::count(500);
+    }
+    expect_left(1500);
+    Execution::count(20);
+  }
+  expect_left(1520);
+  Execution::count(1e5);  // is not the budget's
+  expect_left(1520);
+  {
+    const Budget::Counting counting(budget);
+    Execution::count(7);
+  }
+  expect_left(1527);
+}
+
+TEST(Budget, GrowsWithTrianglesAndEffort) {
+  EXPECT_TRUE(Budget(1000).allows(1.19e9));
+  EXPECT_FALSE(Budget(1000).allows(1.2e9));
+  EXPECT_FALSE(Budget(1000, 0.5).allows(0.6e9));
+  EXPECT_EQ(Budget(100'000).allows(2e10), Budget(1'000'000).allows(2e10));
+}
+
+TEST(Budget, SaysWhetherSomethingWasLeftOut) {
+  Budget budget(0, 1e-3);
+  EXPECT_FALSE(budget.allows(kMost));
+  EXPECT_FALSE(budget.was_short());
+  EXPECT_FALSE(budget.goes_on(kMost));
+  EXPECT_TRUE(budget.goes_on());
+  EXPECT_TRUE(budget.was_short());
 }
 
 }  // namespace

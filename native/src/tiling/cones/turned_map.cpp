@@ -179,7 +179,8 @@ TurnedMaps::Start TurnedMaps::best_start(const ConeOptions& wanted, Execution& e
   }
   std::vector<int> vertex = coarse.vertex;
   for (int& v : vertex) v = level_.collapsed[v];
-  return {moved(*level_.surface, vertex, best->missing), cost};
+  // Where all collapse on so few triangles, nothing is known.
+  return {moved(*level_.surface, vertex, best->missing), std::isfinite(cost) ? cost : 0};
 }
 
 int TurnedMaps::first_of(double tiles) const {

@@ -40,7 +40,7 @@ class TurnedMaps {
   TurnedMap turned_map(double tiles, double evenness, Execution& execution);
 
   /// About what is minded of the squares of such a map (uv/appearance.h), seen on few triangles, where cones are
-  /// searched for; 0 where they are not. What it begins with is kept.
+  /// searched for; 0 where they are not, or where that tells nothing. What it begins with is kept.
   double guess(double tiles, Execution& execution);
 
  private:
