@@ -61,7 +61,7 @@ def automatic_map(
     main : "automatic"; "seamless" for a tiling in any case; "untiled" for the best of the other maps; "balanced" for a
         map of forms, as when something about the structure was chosen; "islands" for flat pieces between chosen cuts
     tiles, poles, lattice, boundary, turn, max_turn, max_added, turns, texture : of tilings, as in `Structure.tile`
-    lines, marked : likewise, where they can be made; "automatic" for lines that cost little
+    lines, marked : likewise, where they can be made; "automatic" for lines that cost little, of "seamless" maps alone
     cones : likewise; then there are no lines
     density : tiles per unit of area; where whole tiles miss it by more than 20 %, the map is not a tiling
     direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None

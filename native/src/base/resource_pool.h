@@ -1,37 +1,59 @@
-// Costly values shared by callers on several threads: a memo of the last one, and a pool of one.
+// Costly values shared by callers on several threads: the newest ones by their keys, and a pool of one.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/execution.h"
 
 namespace holomorph {
 
-/// Saves making the same value twice in a row. No lock is held while one is made, so two callers may make the same.
+/// The values that were asked for last, so many of them, by what they are made of. No lock is held while one is made,
+/// so two callers may make the same.
 template <class Key, class Value>
-class Memo {
+class Newest {
  public:
-  /// The value of the key: the one made last, or make().
+  explicit Newest(std::size_t count = 1) : count_(count) {}
+
+  /// The value that is kept, or make().
   template <class Make>
-  std::shared_ptr<const Value> get(const Key& key, const Make& make) {
+  Value get(const Key& key, const Make& make) {
     {
       const std::lock_guard lock(mutex_);
-      if (value_ && key_ == key) return value_;
+      const auto known = std::ranges::find(kept_, key, &Kept::first);
+      if (known != kept_.end()) {
+        std::rotate(known, known + 1, kept_.end());
+        return kept_.back().second;
+      }
     }
-    std::shared_ptr<const Value> made = make();
-    const std::lock_guard lock(mutex_);
-    key_ = key;
-    value_ = made;
+    const Value made = make();
+    keep(key, made);
     return made;
+  }
+  void keep(const Key& key, Value value) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(kept_, [&](const Kept& each) { return each.first == key; });
+    kept_.emplace_back(key, std::move(value));
+    if (kept_.size() > count_) kept_.erase(kept_.begin());
+  }
+  /// The one that was asked for before all others.
+  std::optional<Value> any() const {
+    const std::lock_guard lock(mutex_);
+    return kept_.empty() ? std::nullopt : std::optional(kept_.front().second);
   }
 
  private:
-  std::mutex mutex_;
-  Key key_;
-  std::shared_ptr<const Value> value_;
+  using Kept = std::pair<Key, Value>;
+
+  mutable std::mutex mutex_;
+  std::size_t count_;
+  std::vector<Kept> kept_;  // the oldest first
 };
 
 /// Returns the cached object, or a new one if it is in use. No caller waits, so a call from within the progress

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/resource_pool.h"
 #include "choice/part.h"
 #include "choice/tilers.h"
 #include "flat/dirichlet_problem.h"
@@ -20,6 +21,25 @@ namespace holomorph::choice {
 /// map of a disk, round, to a rectangle, or with a free boundary.
 enum class MapKind { kForms, kStrip, kLog, kDisk, kRectangle, kFlat };
 
+/// A connected piece of a part, with indices of its elements there.
+struct Piece {
+  PartPointer part;  ///< its own
+  std::vector<int> vertex_index, face_index, corner_index;
+  int name = 0;                   ///< of its polygons, as flat::names_of_pieces
+  std::optional<uv::UvArray> uv;  ///< #C x 2 of its islands; none without any
+  double cost = 0;                ///< of these, see uv/appearance.h; infinite without any
+};
+
+class AnyStructure;
+
+/// What is known of the pieces of a part, and kept for other dials. Several threads may use it at once.
+struct KnownPieces {
+  /// Those that were solved, by their polygons; the structure is of the piece with its windows closed.
+  Newest<std::vector<int>, std::pair<PartPointer, std::shared_ptr<AnyStructure>>> solved{256};
+  /// The part cut open where few see it, and how far that is seen, by whether it is to be upright.
+  Newest<bool, std::optional<std::pair<Piece, double>>> cut{2};
+};
+
 /// A structure with the maps that it gives. Several threads may use it at once.
 class AnyStructure {
  public:
@@ -31,6 +51,7 @@ class AnyStructure {
   const std::shared_ptr<const mesh::Surface>& triangulation() const { return triangulation_; }
   /// The tilings of the part, whose poles and cones are kept.
   Tilers& tilers() { return tilers_; }
+  KnownPieces& pieces() { return pieces_; }
 
   /// How many forms there are to mix: coefficients of a map.
   virtual int form_count() const = 0;
@@ -61,6 +82,7 @@ class AnyStructure {
   PartPointer part_;
   std::shared_ptr<const mesh::Surface> triangulation_;
   Tilers tilers_;
+  KnownPieces pieces_;
 };
 using StructurePointer = std::shared_ptr<AnyStructure>;
 

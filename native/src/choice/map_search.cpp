@@ -112,10 +112,14 @@ std::vector<MapPointer> MapSearch::maps(double density, int tries, bool leads, E
 std::vector<MapPointer> MapSearch::tried(double density, int tries, bool leads, Execution& execution) {
   TilingSearch& tilings = held(tilings_);
   if (request_.main == Main::kSeamless) return tilings.of_density(density, tries, execution);
+  if (is_in_pieces_) {  // with another density they keep their kinds
+    if (const MapPointer same = held(pieces_).resized(density, execution)) return {said(same)};
+  }
   const MapPointer best = nested(execution, 0.0, tries > 1 ? kFirst : 1.0,
                                  [&] { return least(candidates(density, tries, leads), flat_, *budget_, execution); });
   if (!best) return {said(held(untiled_).best(why_untiled(), execution))};
   std::vector<MapPointer> result{best};
+  is_in_pieces_ = best->is_in_pieces();
   if (best->tiling()) {
     result = nested(execution, kFirst, 1.0, [&] { return tilings.resized(best, density, tries, execution); });
   }
@@ -142,9 +146,6 @@ std::vector<Candidate> MapSearch::candidates(double density, int tries, bool lea
       return in_pieces(best, is_cut, density, leads ? tries : 0, execution);
     };
   };
-  const auto bound_of_balanced = [&untiled](const MapPointer& best, Execution& execution) {
-    return !best || best->cost() <= kGood ? kInfinity : untiled.bound_of_balanced(best->cost(), execution);
-  };
   const auto balanced = [this, &untiled](const MapPointer&, Execution& execution) {
     return untiled.balanced(why_untiled(), execution);
   };
@@ -159,12 +160,12 @@ std::vector<Candidate> MapSearch::candidates(double density, int tries, bool lea
   if (has_room && (!is_good || is_ring())) {
     whole = tilings.candidates(tiles, tries > 1);
     // Poles come last, and turn more rows than a cut is seen, but on a ring, which may need none.
-    whole.insert(whole.end() - (is_ring() ? 0 : 1), {kOfCut * work, any, pieces(true)});
+    whole.insert(whole.end() - (is_ring() ? 0 : 1), {kOfCut * work, any, pieces(true), kPieces});
   }
   std::ranges::move(whole, std::back_inserter(result));
   result.push_back({little, poor, islands(untiled.much_work()), kFar});
   if (!is_flat) result.push_back(in_pieces);
-  result.push_back({kOfBalanced * work, bound_of_balanced, balanced});
+  result.push_back({kOfBalanced * work, poor, balanced});
   return result;
 }
 

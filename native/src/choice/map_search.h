@@ -68,6 +68,7 @@ class MapSearch {
   Request request_;
   std::shared_ptr<Budget> budget_;
   MapPointer final_, flat_;
+  bool is_in_pieces_ = false;  // the map of least cost
   std::optional<TilingSearch> tilings_;
   std::optional<Untiled> untiled_;
   std::optional<PieceSearch> pieces_;

@@ -217,7 +217,9 @@ bool PieceSearch::may_be_cut(const MapPointer& rival) const {
 
 // The part cut open; none if it falls apart or cannot be solved.
 std::vector<PieceSearch::Division> PieceSearch::in_hiding(Execution& execution) {
-  auto found = cut_in_hiding(*request_.part, request_.is_upright(), execution);
+  const bool is_upright = request_.is_upright();
+  auto found =
+      structure_->pieces().cut.get(is_upright, [&] { return cut_in_hiding(*request_.part, is_upright, execution); });
   if (!found) return {};
   auto& [piece, seen] = *found;
   const auto search = search_of(piece, true, execution);
@@ -230,15 +232,21 @@ std::vector<PieceSearch::Division> PieceSearch::in_hiding(Execution& execution) 
 }
 
 // None for a piece on which nothing can be solved: it becomes an island.
-std::optional<TilingSearch> PieceSearch::search_of(const Piece& piece, bool is_cut, Execution& execution) {
+std::optional<TilingSearch> PieceSearch::search_of(Piece& piece, bool is_cut, Execution& execution) {
   return unless_refused(
       [&] {
-        const PartPointer part = is_cut ? piece.part : closed(piece.part, execution);
+        std::vector<int> key = piece.face_index;
+        if (is_cut) key.push_back(request_.is_upright() ? -2 : -1);  // another cut through the same polygons
+        const auto [own, structure] = structure_->pieces().solved.get(key, [&] {
+          const PartPointer part = is_cut ? piece.part : closed(piece.part, execution);
+          return std::pair(piece.part, automatic_structure(part, {}, execution));
+        });
+        piece.part = own;
+        const PartPointer& part = structure->part();
         Request request = request_;
         if (is_cut) request.rows = tiling::Rows::kNone, request.tiling.poles.count = 0;
         request.tiling.marked = marked_on(piece, *part->surface, std::move(request.tiling.marked));
-        return std::optional<TilingSearch>(std::in_place, part, automatic_structure(part, {}, execution),
-                                           std::move(request), budget_);
+        return std::optional<TilingSearch>(std::in_place, part, structure, std::move(request), budget_);
       },
       [](const Error&) { return std::nullopt; });
 }
@@ -272,7 +280,8 @@ std::vector<PieceSearch::Tiled> PieceSearch::tiled(Division& division, const Map
     if (!tiling) continue;
     Tiled one{&piece, opened(tiling, piece.part, execution)};
     // Poles turn rows, too.
-    if (search.part()->is_tube() && one.map->pole_count() == 0) one.turn = uv::kTurn * piece.turn(one.map->uv());
+    if (search.part()->is_tube() && one.map->pole_count() == 0)
+      one.turn = uv::kTurn * turn_against(piece, one.map->uv());
     if (!(one.map->cost() < piece.cost + one.turn)) continue;
     if (leads) density = one.map->density();
     made.push_back(std::move(one));

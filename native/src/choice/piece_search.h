@@ -54,7 +54,7 @@ class PieceSearch {
   std::vector<Division> divisions(Execution& execution);
   bool may_be_cut(const MapPointer& rival) const;
   std::vector<Division> in_hiding(Execution& execution);
-  std::optional<TilingSearch> search_of(const Piece& piece, bool is_cut, Execution& execution);
+  std::optional<TilingSearch> search_of(Piece& piece, bool is_cut, Execution& execution);
   bool is_worth(Solved& solved, const Division& division, const MapPointer& rival, double density,
                 Execution& execution) const;
   std::vector<Tiled> tiled(Division& division, const MapPointer& rival, double density, int tries, const Window& window,

@@ -109,7 +109,9 @@ SeamlessMap inside(const SeamlessMap& tiling, const mesh::Surface& surface) {
 
 }  // namespace
 
-double Piece::turn(const uv::UvArray& other) const { return uv ? flat::turn_between(*part->surface, *uv, other) : 0; }
+double turn_against(const Piece& piece, const uv::UvArray& other) {
+  return piece.uv ? flat::turn_between(*piece.part->surface, *piece.uv, other) : 0;
+}
 
 std::vector<Piece> cut_apart(const Part& part, const std::vector<int>& names, Execution& execution) {
   std::vector<Piece> result = pieces_of(part, flat::cut_apart(*part.surface, names, execution), execution);

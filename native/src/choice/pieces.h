@@ -12,18 +12,9 @@
 
 namespace holomorph::choice {
 
-/// A connected piece of a part, with indices of its elements there.
-struct Piece {
-  PartPointer part;  ///< its own
-  std::vector<int> vertex_index, face_index, corner_index;
-  int name = 0;                   ///< of its polygons, as flat::names_of_pieces
-  std::optional<uv::UvArray> uv;  ///< #C x 2 of its islands; none without any
-  double cost = 0;                ///< of these, see uv/appearance.h; infinite without any
-
-  /// Radians by which rows of squares of the islands turn against those of another map of the piece, in the mean over
-  /// the area; 0 without islands.
-  double turn(const uv::UvArray& other) const;
-};
+/// Radians by which rows of squares of a piece's islands turn against those of another map of it, in the mean over the
+/// area; 0 without islands.
+double turn_against(const Piece& piece, const uv::UvArray& other);
 
 /// The components of a part that is cut between polygons of different names, #F.
 std::vector<Piece> cut_apart(const Part& part, const std::vector<int>& names, Execution& execution);

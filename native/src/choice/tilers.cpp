@@ -184,15 +184,11 @@ double Tilers::ratio_without_poles(BoundaryLines boundary, bool is_evened, Execu
 }
 
 TilerPointer Tilers::tiler(const PoleChoice& poles, BoundaryLines boundary, bool is_evened, Execution& execution) {
-  const TilerKey key{poles, boundary, is_evened};
-  TilerPointer result = tilers_.get(key).value_or(nullptr);
-  if (!result) {
+  return tilers_.get({poles, boundary, is_evened}, [&] {
     const TilerPointer like = tilers_.any().value_or(nullptr);
-    result = std::make_shared<const Tiler>(part_, poles, boundary, is_evened, "auto", levels(execution), like.get(),
-                                           execution);
-  }
-  tilers_.keep(key, result);
-  return result;
+    return std::make_shared<const Tiler>(part_, poles, boundary, is_evened, "auto", levels(execution), like.get(),
+                                         execution);
+  });
 }
 
 SeamlessPointer Tilers::tile(const TileOptions& options, Execution& execution) {
@@ -207,13 +203,9 @@ SeamlessPointer Tilers::shifted(const TileOptions& options, Execution& execution
   key.second.evenness = 0;
   key.second.moves.clear();
   return nested(execution, kPlacing, 1, [&] {
-    SeamlessPointer made = shifted_.get(key).value_or(nullptr);
-    if (!made) {
-      made = tiler->tile(options, execution);
-    } else if (made->evenness != options.evenness) {
-      made = tiler->evened(*made, options.evenness, execution);
-    }
-    shifted_.keep(key, made);
+    SeamlessPointer made = shifted_.get(key, [&] { return tiler->tile(options, execution); });
+    if (made->evenness != options.evenness)
+      shifted_.keep(key, made = tiler->evened(*made, options.evenness, execution));
     return options.moves.empty() ? made : tiler->moved(*made, options.moves, made->evenness, execution);
   });
 }
@@ -221,18 +213,14 @@ SeamlessPointer Tilers::shifted(const TileOptions& options, Execution& execution
 std::shared_ptr<tiling::TurnedTiler> Tilers::turned_tiler(const TileOptions& options, Execution& execution) {
   check_turned(options);
   const Heading& heading = options.heading;
-  const TurnedKey key{options.turns, options.rows, heading, options.marked, options.missing};
-  std::shared_ptr<tiling::TurnedTiler> tiler = turned_.get(key).value_or(nullptr);
-  if (!tiler) {
+  return turned_.get({options.turns, options.rows, heading, options.marked, options.missing}, [&] {
     tiling::TilerOptions asked{
         options.turns, {}, part_->up, options.rows, options.marked, options.missing.value_or(std::vector<int>())};
     asked.levels = levels(execution);
     if (heading.is_upright() && part_->has_positions()) asked.along = {up_vector(part_->up), false};
     if (heading.kind == Heading::Kind::kVector) asked.along = {heading.vector, true};
-    tiler = std::make_shared<tiling::TurnedTiler>(part_->surface, asked, execution);
-  }
-  turned_.keep(key, tiler);
-  return tiler;
+    return std::make_shared<tiling::TurnedTiler>(part_->surface, asked, execution);
+  });
 }
 
 double Tilers::guess_turned(const TileOptions& options, Execution& execution) {
@@ -241,14 +229,11 @@ double Tilers::guess_turned(const TileOptions& options, Execution& execution) {
 
 SeamlessPointer Tilers::turned(const TileOptions& options, Execution& execution) {
   const std::shared_ptr<tiling::TurnedTiler> tiler = turned_tiler(options, execution);
-  const TurnedMapKey made_key{tiler, options.tiles, options.evenness};
-  SeamlessPointer made = turned_maps_.get(made_key).value_or(nullptr);
-  if (!made) {
-    made = nested(execution, 0, 1, [&] {
+  const SeamlessPointer made = turned_maps_.get({tiler, options.tiles, options.evenness}, [&] {
+    return nested(execution, 0, 1, [&] {
       return turned_tiling(*tiler, *part_, options.turns, options.tiles, options.evenness, execution);
     });
-  }
-  turned_maps_.keep(made_key, made);
+  });
   check_added(*made, options.max_added, part_->type.genus);
   return made;
 }

@@ -22,13 +22,6 @@ constexpr double kBudget = 0.4, kLeastWork = 100'000;
 constexpr double kLonger = 5;
 constexpr int kQuickTriangles = 25'000;
 
-// A conformal map costs more than this part of what it does on few triangles, which tell that where there are many: of
-// 43 parts 0.68 to 1.01.
-constexpr double kOfCoarse = 0.7;
-// And the log map between two poles costs more, evened: of 25 parts 2.07 to 21.
-constexpr double kOfLog = 2;
-constexpr int kMany = 2 * tiling::kFewTriangles;
-
 // What ask() finds; nothing where islands collapse or cannot be made: another map may be.
 template <class Ask>
 LayoutPointer found_or_none(const Ask& ask) {
@@ -91,38 +84,17 @@ MapPointer Untiled::along(const flat::ChosenCuts& cuts, Execution& execution) co
   return map(search_->along(cuts, execution), "", execution);
 }
 
-double Untiled::bound_of_balanced(double most, Execution& execution) {
-  if (!part_->has_positions()) return 0;
-  double seams = 0;
-  for (const int e : structure(execution)->seams(execution)) seams += structure_->triangulation()->edge_lengths[e];
-  const double seen =
-      std::max(uv::kSeam * seams / std::sqrt(part_->area), structure_->kind() == MapKind::kLog ? kOfLog : 0);
-  if (seen >= most || part_->triangle_count() <= kMany) return seen;
-  if (!of_coarse_) {
-    const tiling::CoarseLevel level = structure_->tilers().levels(execution)->level(tiling::kFewTriangles, execution);
-    const PartPointer coarse = part_of(level.surface, part_->up, {}, execution);
-    of_coarse_ = unless_refused(
-        [&] { return form_map(coarse, automatic_structure(coarse, {}, execution), 0, false, "", execution)->cost(); },
-        [](const Error&) { return 0.0; });
-  }
-  return std::max(seen, kOfCoarse * (evenness_ > 0 ? flat::kEvenedCost : 1) * *of_coarse_);
-}
-
 MapPointer Untiled::balanced(const std::string& why, Execution& execution) {
   return form_map(part_, structure(execution), evenness_, is_upright_, why, execution);
 }
 
 MapPointer Untiled::best(const std::string& why, Execution& execution) {
   MapPointer best = may_flatten() ? islands(kInfinity, work(), execution) : nullptr;
-  if (best && best->cost() <= kGood) return best;
-  if (!best) {
-    best = balanced(why, execution);
-  } else if (bound_of_balanced(best->cost(), execution) < best->cost()) {
-    best = cheaper(best,
-                   unless_refused([&] { return balanced(why, execution); }, [](const Error&) { return MapPointer(); }));
-  }
-  if (best->cost() < kPoor) return best;
-  return cheaper(best, islands(best->cost(), much_work(), execution));
+  if (best && best->cost() < kPoor) return best;
+  best = best ? cheaper(best, unless_refused([&] { return balanced(why, execution); },
+                                             [](const Error&) { return MapPointer(); }))
+              : balanced(why, execution);
+  return best->cost() < kPoor ? best : cheaper(best, islands(best->cost(), much_work(), execution));
 }
 
 MapPointer Untiled::one_island(const SeamlessMap& tiling, const std::string& why, Execution& execution) const {
@@ -154,10 +126,16 @@ const StructurePointer& Untiled::structure(Execution& execution) {
 bool Untiled::may_flatten() {
   if (!search_) return false;
   if (!may_flatten_) {
+    const mesh::Surface& surface = *part_->surface;
+    const std::vector<double> breaks = mesh::breaks(surface);
     std::vector<char> is_hard;
-    for (const double bend : mesh::breaks(*part_->surface))
-      is_hard.push_back(bend > mesh::radians(flat::kHardAngles.back()));
-    may_flatten_ = mesh::curvature(*part_->surface, is_hard, mesh::kTip) <= kMostCurved;
+    double hard = 0;
+    for (std::size_t e = 0; e < breaks.size(); ++e) {
+      is_hard.push_back(breaks[e] > mesh::radians(flat::kHardAngles.back()));
+      if (breaks[e] > mesh::radians(flat::kHardAngles.front())) hard += surface.edge_lengths[e];
+    }
+    const bool is_edged = part_->triangle_count() <= kQuickTriangles && hard >= kEdged * std::sqrt(part_->area);
+    may_flatten_ = is_edged || mesh::curvature(surface, is_hard, mesh::kTip) <= kMostCurved;
   }
   return *may_flatten_;
 }

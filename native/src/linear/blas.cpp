@@ -13,6 +13,9 @@
 
 #ifdef HOLOMORPH_WITH_OPENBLAS
 extern "C" {
+// The OpenMP that CHOLMOD was built with has these; null where that was none.
+__attribute__((weak)) int omp_get_max_active_levels(void);
+__attribute__((weak)) void omp_set_max_active_levels(int);
 void openblas_set_num_threads(int);
 int openblas_get_num_threads(void);
 void dgemm_(const char* of_a, const char* of_b, const int* m, const int* n, const int* k, const double* alpha,
@@ -66,12 +69,17 @@ void take_workspace() {
 OneBlasThread::OneBlasThread() {
   const std::lock_guard lock(mutex);
   if (users == workspaces) take_workspace();
+  if (omp_set_max_active_levels) {
+    levels_ = omp_get_max_active_levels();
+    omp_set_max_active_levels(0);
+  }
   if (users++ > 0) return;
   before = openblas_get_num_threads();
   openblas_set_num_threads(1);
 }
 
 OneBlasThread::~OneBlasThread() {
+  if (omp_set_max_active_levels) omp_set_max_active_levels(levels_);
   const std::lock_guard lock(mutex);
   if (--users == 0) openblas_set_num_threads(before);
 }

@@ -6,7 +6,8 @@
 namespace holomorph::linear {
 
 /// While an instance is alive, BLAS runs on one thread, so that the bits do not depend on the number of threads. That
-/// number belongs to the process: the destructor of the last instance restores it.
+/// number belongs to the process: the destructor of the last instance restores it. Nor does the calling thread start
+/// others by OpenMP: CHOLMOD would, for loops of microseconds, which cost a fifth of the time of a map.
 class OneBlasThread {
  public:
   /// @throws std::bad_alloc where BLAS would wait for memory for ever
@@ -14,6 +15,9 @@ class OneBlasThread {
   ~OneBlasThread();
   OneBlasThread(const OneBlasThread&) = delete;
   OneBlasThread& operator=(const OneBlasThread&) = delete;
+
+ private:
+  int levels_ = 0;  // of parallel regions, before
 };
 
 /// Matrices of at most this many rows are left to Eigen: a call of BLAS costs more than it saves.

@@ -83,7 +83,8 @@ struct Placement {
   PlacementStart start;
   std::shared_ptr<const JacobiInversion> inversion = nullptr;  ///< on a closed surface with handles, else null
   /// The maps of the last tiling, reused by the next one with the same poles.
-  std::shared_ptr<Memo<std::vector<int>, SeamlessMaps>> maps = std::make_shared<Memo<std::vector<int>, SeamlessMaps>>();
+  using KnownMaps = Newest<std::vector<int>, std::shared_ptr<const SeamlessMaps>>;
+  std::shared_ptr<KnownMaps> maps = std::make_shared<KnownMaps>();
 };
 
 /// Places the poles, on a level of the progressive mesh where the surface is large (pole_placement.h).

@@ -75,8 +75,8 @@ TEST(ResourcePool, HasOneUserAtATime) {
   EXPECT_EQ(alive, 1);
 }
 
-TEST(Memo, MakesAnotherForAnotherKeyAlone) {
-  Memo<int, int> last;
+TEST(Newest, MakesAnotherForAnotherKeyAlone) {
+  Newest<int, std::shared_ptr<int>> last;
   int made = 0;
   const auto squared = [&](int key) {
     return last.get(key, [&] {
@@ -93,11 +93,28 @@ TEST(Memo, MakesAnotherForAnotherKeyAlone) {
   EXPECT_EQ(made, 3);
 }
 
-TEST(Memo, IsAskedWhileItMakes) {
-  Memo<int, int> last;
+TEST(Newest, IsAskedWhileItMakes) {
+  Newest<int, std::shared_ptr<int>> last;
   const auto outer =
       last.get(1, [&] { return std::make_shared<int>(10 * *last.get(1, [] { return std::make_shared<int>(7); })); });
   EXPECT_EQ(*outer, 70);
+}
+
+TEST(Newest, DropsTheOneThatWasAskedForBeforeTheOthers) {
+  Newest<int, int> two(2);
+  int made = 0;
+  const auto asked = [&](int key) { return two.get(key, [&] { return ++made; }); };
+  EXPECT_FALSE(two.any());
+  EXPECT_EQ(asked(1), 1);
+  EXPECT_EQ(asked(2), 2);
+  EXPECT_EQ(two.any(), 1);
+  EXPECT_EQ(asked(1), 1);  // asked for again: now the other is dropped first
+  EXPECT_EQ(two.any(), 2);
+  EXPECT_EQ(asked(3), 3);
+  EXPECT_EQ(asked(1), 1);
+  EXPECT_EQ(asked(2), 4);
+  two.keep(2, 9);
+  EXPECT_EQ(asked(2), 9);
 }
 
 }  // namespace

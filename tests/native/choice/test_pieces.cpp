@@ -101,12 +101,12 @@ TEST(Pieces, RowsThatTurnAreToldFromATurnedMap) {
   }
   Piece piece;
   piece.part = part;
-  EXPECT_EQ(piece.turn(plain), 0);  // without islands
+  EXPECT_EQ(turn_against(piece, plain), 0);  // without islands
   piece.uv = polar;
-  EXPECT_NEAR(piece.turn(plain), kAngle / 4, 0.01 * kAngle);
-  EXPECT_NEAR(piece.turn(quarter), kAngle / 4, 0.01 * kAngle);
+  EXPECT_NEAR(turn_against(piece, plain), kAngle / 4, 0.01 * kAngle);
+  EXPECT_NEAR(turn_against(piece, quarter), kAngle / 4, 0.01 * kAngle);
   piece.uv = plain;
-  EXPECT_NEAR(piece.turn(quarter), 0, kTolerance);
+  EXPECT_NEAR(turn_against(piece, quarter), 0, kTolerance);
 }
 
 }  // namespace

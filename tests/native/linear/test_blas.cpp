@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+extern "C" __attribute__((weak)) int omp_get_max_active_levels(void);
+
 namespace holomorph::linear {
 namespace {
 
@@ -70,6 +72,21 @@ TEST_P(Blas, ThreadsSideBySideFindTheSameBits) {
 INSTANTIATE_TEST_SUITE_P(Sizes, Blas,
                          testing::Combine(testing::Values(5, 33, 120), testing::Values(7, 200),
                                           testing::Values(0.02, 1.0)));
+
+TEST(OneBlasThread, LetsOpenMpStartNoThreadsMeanwhile) {
+  if (!omp_get_max_active_levels) GTEST_SKIP() << "without OpenMP";
+  const int before = omp_get_max_active_levels();
+  {
+    const OneBlasThread one;
+    EXPECT_EQ(omp_get_max_active_levels(), 0);
+    {
+      const OneBlasThread within;
+      EXPECT_EQ(omp_get_max_active_levels(), 0);
+    }
+    EXPECT_EQ(omp_get_max_active_levels(), 0);
+  }
+  EXPECT_EQ(omp_get_max_active_levels(), before);
+}
 
 }  // namespace
 }  // namespace holomorph::linear
