@@ -38,7 +38,6 @@ NO_ROWS = dict.fromkeys(
 ) | {"mirror": "left and right differ: none of its edges divide it into mirrored halves in X or Y"}
 LINED = (2, 4)  # turns of maps whose rows may do so
 TURNED = {2: ("square", "half"), 4: ("square", "quarter"), 6: ("hex", "sixth")}  # lattice that they leave, their name
-QUICK_TURNED = 300_000  # triangles of an object: some 25 seconds
 # Lattices that quarter turns of a map that is made leave as they are, and so the texture whole. On others it is turned
 # before its jumps are rounded.
 QUARTERED = ("square", ((1.0, 0.0), (0.0, 1.0)))
@@ -210,7 +209,7 @@ def _turned(dials, target, own, wanted):
     """The same with the points that were moved, and with the turns that are asked for; of the texture, where nothing is
     chosen that they exclude. @throws ValueError something is"""
     texture = material.CHECKER if dials.texture in (IMAGE, MATERIAL) and own is None else dials.texture
-    turns = TURNS.get(dials.turns) or (material.turns(texture, own) if _follows_texture(dials, target) else 1)
+    turns = TURNS.get(dials.turns) or (material.turns(texture, own) if dials.checker else 1)
     moved, is_open, request = moved_points(dials, target), dials.turns not in TURNS, wanted.request
     shifted = moved.on(wanted, 1, is_open) if moved else wanted
     if turns == 1:
@@ -241,12 +240,6 @@ def lines(asked, target, turns):
         return {"lines": "automatic"}
     is_marked = asked != "none" and len(target.sharp)
     return {"lines": asked, "marked": target.sharp if is_marked else None}
-
-
-def _follows_texture(dials, target):
-    """Whether a map turns as its texture does: where it is shown, and that is quick."""
-    polygons = target.polygons
-    return dials.checker and len(polygons.corner_vertices) - 2 * polygons.face_count <= QUICK_TURNED
 
 
 def _why_seams(texture, own, turns):

@@ -116,20 +116,6 @@ def test_a_map_whose_texture_is_not_shown_is_only_shifted(operator):
     assert [one["turns"] for one in tilings(obj)] == [1]
 
 
-def test_large_meshes_turn_where_that_is_asked_for(monkeypatch):
-    """It takes longer than a first click may."""
-    obj = ball()
-    triangles = len(obj.data.loops) - 2 * len(obj.data.polygons)
-    for most, turns, expected in (
-        (triangles, "FROM_TEXTURE", 4),
-        (triangles - 1, "FROM_TEXTURE", 1),
-        (0, "QUARTER", 4),
-    ):
-        monkeypatch.setattr(module("operators.request"), "QUICK_TURNED", most)
-        tile(turns=turns)
-        assert [one["turns"] for one in tilings(obj)] == [expected]
-
-
 def test_the_best_map_of_an_even_ring_needs_no_cones():
     obj = torus(thickness=0.1, bulge=0)
     for turns in ("FROM_TEXTURE", "QUARTER"):

@@ -50,7 +50,7 @@ class Budget {
 
  private:
   static constexpr double kAny = 1e9, kEach = 2e5;  // for any part, and for each triangle of up to so many
-  static constexpr int kMany = 100'000;
+  static constexpr int kMany = 45'000;
 
   double most_;
   std::uint64_t spent_ = 0, begin_ = 0;

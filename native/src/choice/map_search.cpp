@@ -25,6 +25,9 @@ constexpr double kOfBalanced = 0.2, kOfCut = 1.5, kOfPieces = 1.2, kOperations =
 constexpr double kFewestTiles = 1;
 // Times the budget, within which pieces follow a tiling: where there are hard edges they are often better.
 constexpr double kPieces = 2;
+// Operations for each triangle, to find out where few see a cut; and triangles from which on that is no longer quick.
+constexpr double kHiding = 1.5e4;
+constexpr int kQuickCut = 25'000;
 // Millionths of a second for each operation of a tiling that takes long: about a tenth of its time.
 constexpr double kIslands = 1e-4;
 // Seconds of one processor that all real forms of a part may take, and besides for each of its triangles. Poles and a
@@ -160,7 +163,9 @@ std::vector<Candidate> MapSearch::candidates(double density, int tries, bool lea
   if (has_room && (!is_good || is_ring())) {
     whole = tilings.candidates(tiles, tries > 1);
     // Poles come last, and turn more rows than a cut is seen, but on a ring, which may need none.
-    whole.insert(whole.end() - (is_ring() ? 0 : 1), {kOfCut * work, any, pieces(true), kPieces});
+    const int count = request_.part->triangle_count();
+    whole.insert(whole.end() - (is_ring() ? 0 : 1),
+                 {kOfCut * work + kHiding * count, any, pieces(true), count <= kQuickCut ? kPieces : 1});
   }
   std::ranges::move(whole, std::back_inserter(result));
   result.push_back({little, poor, islands(untiled.much_work()), kFar});
