@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The cells of maps that turn by quarters beside Blender's remesher QuadriFlow, of mesh files.
+"""`Surface.quads` beside Blender's remesher QuadriFlow, of mesh files.
 
-    blender -b --factory-startup --python-exit-code 1 --python benchmarks/blender_quads.py -- FILE... [--tiles N]
+    blender -b --factory-startup --python-exit-code 1 --python benchmarks/blender_quads.py -- FILE... [--faces N]
 
 Of the largest part of each file, first ours, then QuadriFlow's, asked for as many faces: the number of faces, and of
 those that are no quads; the mean of how far corners are from 90 degrees, and what 95 % are below; the vertices inside
@@ -20,10 +20,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from addon.native import holomorph
 
 
-def cells(surface, tiles):
-    made = holomorph.automatic_structure(surface).tile(tiles, turns=4, evenness=0.5)
-    found = holomorph.TiledSurface(surface, made.uv, turns=4).cells((2, 2)).simplified()
-    return found.vertices, found.corner_vertices, found.face_offsets
+def quads(surface, faces):
+    found = surface.quads(faces)
+    return found.positions, found.corner_vertices, found.face_offsets
 
 
 def remeshed(surface, faces):
@@ -66,16 +65,16 @@ def measured(vertices, corners, offsets):
 def main():
     parser = argparse.ArgumentParser(prog="blender_quads.py")
     parser.add_argument("files", nargs="+")
-    parser.add_argument("--tiles", type=float, default=500.0)
+    parser.add_argument("--faces", type=int, default=2000)
     asked = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
     for path in asked.files:
         surface = max(holomorph.Surface.read(path).components, key=lambda part: len(part.triangles))
         start = time.perf_counter()
-        own = cells(surface, asked.tiles)
+        own = quads(surface, asked.faces)
         seconds = time.perf_counter() - start
-        other, of_other = remeshed(surface, len(own[2]) - 1)
+        other, of_other = remeshed(surface, asked.faces)
         print(f"{Path(path).name}, {len(surface.triangles):,} triangles")
-        print(f"    cells       {measured(*own)}, {seconds:.1f} s")
+        print(f"    quads       {measured(*own)}, {seconds:.1f} s")
         print(f"    QuadriFlow  {measured(*other)}, {of_other:.1f} s", flush=True)
 
 

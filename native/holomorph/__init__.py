@@ -15,8 +15,8 @@ Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Su
 
 Contents. help(holomorph.Surface) tells more, and so for each name.
 
-Meshes: Surface; Repairs, Cut, Refused; punch_holes, double_cover, symmetrised, cut_along; ProgressiveMesh,
-LevelOfDetail.
+Meshes: Surface; Repairs, Cut, Refused; Quads; punch_holes, double_cover, symmetrised, cut_along;
+ProgressiveMesh, LevelOfDetail.
 The map for a mesh: automatic_map, automatic_maps, Map; form_map, island_map; arrangement, layout,
 Frame, frame; report.
 Its quality: Verdict, verdict, Seen, UNEVEN, Quality, distortion; CoarsePlace, coarse_places.
@@ -74,6 +74,7 @@ from .packing.layout import Frame as Frame, frame as frame
 from .levels.progressive import ProgressiveMesh as ProgressiveMesh
 from .quality.quality import Quality as Quality
 from .tiles.relief import Relief as Relief
+from .mesh.quads import Quads as Quads
 from .mesh.origin import Cut as Cut, Refused as Refused, Repairs as Repairs
 from .forms.results import MemoryPlan as MemoryPlan, Residuals as Residuals, SolverReport as SolverReport
 from .mesh.surface import Surface as Surface

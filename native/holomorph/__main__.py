@@ -1,5 +1,5 @@
 """python -m holomorph MESHFILE --output out.glb --report report.json; ... batch SOURCE... --out DIR; ... compare A B;
-... relief MESHFILE IMAGE --depth 1mm --output out.3mf"""
+... relief MESHFILE IMAGE --depth 1mm --output out.3mf; ... quads MESHFILE --faces 2000 --output out.obj"""
 
 import argparse
 import contextlib
@@ -11,6 +11,7 @@ from .batch import mapping
 from .batch.recipe import Maps, Output, Recipe, Tiles
 from .commands.compare_command import compare
 from .commands.console import Parser, ended, failed, shown, tell, warn
+from .commands.quads_command import quads
 from .commands.relief_command import relief
 from .core.value import quoted
 from .files import formats, whole_file
@@ -39,6 +40,8 @@ def main(arguments=None):
         return compare(arguments[1:])
     if arguments[:1] == ["relief"]:
         return relief(arguments[1:])
+    if arguments[:1] == ["quads"]:
+        return quads(arguments[1:])
     options = _parser().parse_args(arguments)
     try:
         report = None if options.report == STANDARD_OUTPUT else options.report
@@ -60,8 +63,8 @@ def main(arguments=None):
 def _parser():
     parser = Parser(
         description="Compute the conformal structure of a mesh file. See also holomorph batch --help (map a library "
-        "of meshes), holomorph compare --help (compare two surfaces) and holomorph relief --help (raise a picture on "
-        "a mesh for printing).",
+        "of meshes), holomorph compare --help (compare two surfaces), holomorph relief --help (raise a picture on "
+        "a mesh for printing) and holomorph quads --help (a mesh of quads).",
     )
     parser.add_argument("mesh", help=f"{formats.KINDS} file")
     parser.add_argument("--output", metavar="FILE", help="write the mesh with its main map: .obj, .ply or .glb")

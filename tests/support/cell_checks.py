@@ -2,11 +2,12 @@
 
 import numpy as np
 from holomorph import Surface
+from holomorph.mesh.edges import following_corners
 
 
 def as_surface(cells):
     """A surface of the polygons, checked: no vertex twice in a polygon, no edge or vertex that is not manifold."""
-    return Surface.from_polygons(cells.vertices, cells.corner_vertices, cells.face_offsets)
+    return Surface.from_polygons(cells.positions, cells.corner_vertices, cells.face_offsets)
 
 
 def assert_same_topology(cells, surface):
@@ -15,7 +16,7 @@ def assert_same_topology(cells, surface):
     assert made.euler_characteristic == surface.euler_characteristic
     assert made.boundary_count == surface.boundary_count
     assert not len(made.repairs.reversed_faces) and not len(made.repairs.isolated_vertices)
-    assert len(cells.uv) == len(cells.is_corner) == len(cells.corner_vertices)
+    assert len(cells.uv) == len(cells.corner_vertices)
 
 
 def inside(cells, uv):
@@ -25,5 +26,5 @@ def inside(cells, uv):
 def polygon_areas(cells):
     """(#F,) signed, in tiles."""
     x, y = inside(cells, cells.uv).T
-    follow = cells._following
+    follow = following_corners(cells)
     return np.add.reduceat(x * y[follow] - x[follow] * y, cells.face_offsets[:-1]) / 2

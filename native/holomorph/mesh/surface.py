@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,11 +12,14 @@ from numpy.typing import ArrayLike
 from .. import _native
 from .._native import TopologyError
 from ..core import arrays
-from ..core.array_types import FilePath, Integers, Reals
+from ..core.array_types import FilePath, Integers, Progress, Reals
 from ..core.value import Value, freeze
 from ..files import formats
 from . import checked_mesh
 from .origin import AS_GIVEN, Refused, Repairs
+
+if TYPE_CHECKING:
+    from .quads import Quads
 
 UNWELDED = "every face is separate: strict=False joins those that touch along a whole side"
 
@@ -115,6 +118,45 @@ class Surface(Value):
         """
         formats.write(self, path, uv, texture)
 
+    def quads(
+        self,
+        faces: float = 2000,
+        *,
+        lines: str = "whole",
+        mirror: bool = False,
+        marked: ArrayLike | None = None,
+        evenness: float = 0.5,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> Quads:
+        """`Quads`: a mesh of quads of nearly one size, whose vertices lie on the surface; of each part its own, in
+        proportion to the areas. Its topology is that of the surface. What was found is kept: another number is quick.
+
+        Parameters
+        ----------
+        faces : about how many. A part on which fewer than 6 would lie keeps its own faces, and one that they do not fit
+        lines : "whole" for edges that run along hard edges and borders, "free" for rows that run along them but may be
+            cut there, "none". Where these leave no whole mesh, they are let go
+        mirror : two halves that are alike, of a surface that mirrors itself
+        marked : (n, 2) vertices of edges that are lines, too
+        evenness : from 0 for the angles of a conformal map to 1 for quads of one size
+        threads, progress : as in `conformal_structure`
+
+        Raises ValueError for others; TopologyError where no part can have quads; Cancelled.
+        Source: quads of a map that turns by quarters are Bommes, Zimmer and Kobbelt's (2009); the map is ours,
+        docs/method/turns.md.
+
+        Examples
+        --------
+        >>> surface = holomorph.Surface.read("examples/pretzel.obj")
+        >>> quads = surface.quads(500)
+        >>> print(abs(len(quads) - 500) <= 25, set(np.diff(quads.face_offsets).tolist()))
+        True {4}
+        """
+        from .quads import MIRROR, quads  # which makes a value of its own of a surface
+
+        return quads(self, faces, MIRROR if mirror else lines, marked, evenness, threads, progress)
+
     @classmethod
     def _of(cls, native, origin=AS_GIVEN):
         surface = cls.__new__(cls)
@@ -208,6 +250,11 @@ class Surface(Value):
     def _part(self):
         """The core's value of a component."""
         return _native.WholePart(self._native, self.up, [])
+
+    @cached_property
+    def _tilers(self):
+        """The core's tilings of a component, kept for other numbers of quads."""
+        return _native.Tilers(self._part)
 
     @cached_property
     def _parts(self):

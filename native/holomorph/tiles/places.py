@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .. import _native
 from ..core import arrays
 from ..core.array_types import Flags, Integers, Reals
 from ..core.value import Value, counted
-from ..mesh.edges import edge_keys, following_corners
 
 if TYPE_CHECKING:
     from .tiled_surface import TiledSurface
@@ -200,7 +200,7 @@ class Cells(SurfacePoints):
         """Leaves out the vertices between two others on the sides of polygons: a tile of four corners becomes a quad.
         Keeps vertices by which sides with the same ends differ, and those of polygons that would have fewer than
         three."""
-        kept = self._kept()
+        kept = _native.needed_vertices(self.face_offsets, self.corner_vertices, self._is_needed).astype(bool)
         used = np.flatnonzero(kept)
         number = np.cumsum(kept) - 1
         is_kept = kept[self.corner_vertices]
@@ -215,48 +215,3 @@ class Cells(SurfacePoints):
             barycentric=arrays.frozen(self.barycentric[used]),
             _is_needed=arrays.frozen(np.ones(len(used), bool)),
         )
-
-    def _kept(self):
-        """(#V,) bool. A side of the simplified mesh is known by its ends and by the first vertex that it passes."""
-        kept = self._is_needed.copy()
-        faces = np.repeat(np.arange(len(self)), np.diff(self.face_offsets))
-        while True:
-            is_kept = kept[self.corner_vertices]
-            few = np.bincount(faces[is_kept], minlength=len(self)) < 3
-            added = few[faces] & ~is_kept
-            added |= self._doubled(is_kept, faces)
-            if not added.any():
-                return kept
-            kept[self.corner_vertices[added]] = True
-
-    def _doubled(self, is_kept, faces):
-        """(#C,) bool: corners left out of sides whose ends other sides have, too."""
-        at = np.flatnonzero(is_kept)
-        if not len(at):
-            return np.zeros(len(is_kept), bool)
-        begin = np.searchsorted(at, self.face_offsets[:-1])
-        end = np.searchsorted(at, self.face_offsets[1:])
-        following = np.arange(1, len(at) + 1)
-        has_any = end > begin
-        following[end[has_any] - 1] = begin[has_any]
-        ends = self.corner_vertices[np.stack([at, at[following]], axis=1)].astype(np.int64)
-        keys = edge_keys(ends, len(self.triangles))
-        inner = self.corner_vertices[self._following[at]]  # the first vertex after, or the end itself
-        last = self.corner_vertices[self._before[at[following]]]
-        passed = edge_keys(np.stack([inner, last], axis=1), len(self.triangles))
-        order = np.lexsort([passed, keys])
-        other = (keys[order][1:] == keys[order][:-1]) & (passed[order][1:] != passed[order][:-1])
-        doubled = np.isin(keys, keys[order][1:][other])
-        side = np.searchsorted(at, np.arange(len(is_kept)), side="right") - 1
-        side = np.where(side < begin[faces], end[faces] - 1, side)  # before the first kept one of its polygon
-        return ~is_kept & doubled[side]
-
-    @cached_property
-    def _following(self):
-        return following_corners(self)
-
-    @cached_property
-    def _before(self):
-        before = np.empty(len(self.corner_vertices), np.int64)
-        before[self._following] = np.arange(len(before))
-        return before

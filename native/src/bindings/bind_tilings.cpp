@@ -6,10 +6,12 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/records.h"
+#include "choice/quads.h"
 #include "choice/tilers.h"
 #include "mesh/triangle_tree.h"
 #include "tiles/cells.h"
 #include "tiles/lines_and_places.h"
+#include "tiles/quads.h"
 #include "tiles/relief.h"
 #include "tiles/sharp_zones.h"
 #include "tiling/cones/turned_tiling.h"
@@ -262,6 +264,34 @@ std::vector<int> poles(const TileCoordinates& coordinates) {
   return result;
 }
 
+void bind_quads(py::module_& m) {
+  using choice::Quads;
+  using choice::Tilers;
+  py::class_<Quads>(m, "Quads")
+      .def_property_readonly("cells", [](const Quads& made) { return made.cells; })
+      .def_property_readonly("lines", [](const Quads& made) { return name_of(made.map->rows); });
+  py::class_<Tilers>(m, "Tilers")
+      .def(py::init([](const std::shared_ptr<choice::Part>& part) { return std::make_unique<Tilers>(part); }), "part"_a)
+      .def(
+          "quads",
+          [](Tilers& own, double faces, const std::string& lines, const Contiguous<int>& marked, double evenness,
+             int threads, const py::object& progress) {
+            return unlocked(threads, progress, [&](Execution& execution) {
+              execution.stage("quads", 0.0, 1.0);
+              return choice::quads(own, {faces, rows_named(lines), rows<int, 2>(marked), evenness}, execution);
+            });
+          },
+          "faces"_a, "lines"_a, "marked"_a, py::kw_only(), "evenness"_a, "threads"_a, "progress"_a);
+  m.def(
+      "needed_vertices",
+      [](const Contiguous<int>& offsets, const Contiguous<int>& corner_vertices, const Contiguous<bool>& is_needed) {
+        return copy(tiles::needed_vertices({offsets.data(), static_cast<std::size_t>(offsets.size())},
+                                           {corner_vertices.data(), static_cast<std::size_t>(corner_vertices.size())},
+                                           {is_needed.data(), is_needed.data() + is_needed.size()}));
+      },
+      "offsets"_a, "corner_vertices"_a, "is_needed"_a);
+}
+
 void bind_tiles(py::module_& m) {
   py::class_<TileCoordinates>(m, "TileCoordinates").def("poles", [](const TileCoordinates& c) {
     return copy(poles(c));
@@ -317,6 +347,7 @@ void bind_tilings(py::module_& m) {
   bind_tiler(m);
   bind_turned_tiling(m);
   bind_tiles(m);
+  bind_quads(m);
 }
 
 }  // namespace holomorph::bindings

@@ -51,6 +51,8 @@ class Tilers {
  public:
   explicit Tilers(PartPointer part) : part_(std::move(part)) {}
 
+  const PartPointer& part() const { return part_; }
+
   /// The tiling; the last ones are kept, and evened for another evenness. @throws as Tiler and tiling::TurnedTiler;
   /// std::invalid_argument for choices that a tiling that turns has not
   SeamlessPointer tile(const TileOptions& options, Execution& execution);

@@ -84,6 +84,7 @@ EXAMPLES = {
     "Places": lambda: tiled().places(),
     "Lines": lambda: tiled().lines(),
     "Cells": lambda: tiled().cells(),
+    "Quads": lambda: two_parts().quads(200),
     "Relief": lambda: tiled().relief(np.eye(4), 0.01, most_triangles=2000),
     "PoleStructure": lambda: log_map(ball()),
     "truncated": lambda: log_map(surface_of(families.cube())),

@@ -27,8 +27,8 @@ ROOM_BELOW = {
     "structure": ["uv"],
     "tiling": ["structure"],
     "flat": ["structure"],
-    "choice": ["tiling", "flat"],
-    "bindings": ["tiles", "moduli", "choice"],
+    "choice": ["tiling", "flat", "tiles"],
+    "bindings": ["moduli", "choice"],
 }
 # The rooms of the package, each of which imports only earlier ones. What lies in the package itself begins with all.
 PACKAGE_ROOMS = (

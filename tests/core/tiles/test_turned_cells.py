@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from cell_checks import assert_same_topology, polygon_areas
 from holomorph import Surface, TiledSurface, automatic_map
+from holomorph.mesh.edges import following_corners
 from solved import surface_of
 from turned_surfaces import MADE, SHAPES, angles, box, signed_area, tiled
 
@@ -26,7 +27,7 @@ def sides(cells):
 
 def valences(cells):
     """((#V,) edges at each vertex of the simplified cells, (#V,) whether it lies inside)."""
-    ends = np.stack([cells.corner_vertices, cells.corner_vertices[cells._following]], axis=1)
+    ends = np.stack([cells.corner_vertices, cells.corner_vertices[following_corners(cells)]], axis=1)
     found, count = np.unique(np.sort(ends, axis=1), axis=0, return_counts=True)
     edges = np.bincount(found.ravel(), minlength=len(cells.vertices))
     return edges, ~np.isin(np.arange(len(cells.vertices)), found[count == 1])

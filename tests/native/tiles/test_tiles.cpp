@@ -9,6 +9,7 @@
 #include "mesh/make_surface.h"
 #include "tiles/cells.h"
 #include "tiles/lines_and_places.h"
+#include "tiles/quads.h"
 
 namespace holomorph::tiles {
 namespace {
@@ -119,6 +120,46 @@ TEST_P(Folded, PlacesAreTheDegree) {
   EXPECT_EQ(std::ssize(found.triangles) - found.flipped, 15 * kAround * kAlong);
   const Lines along = lines(tiled.surface, coordinates, execution);
   EXPECT_EQ(std::count(along.is_closed.begin(), along.is_closed.end(), 0), 0);
+}
+
+// Vertices, less edges, plus polygons; each edge has two polygons, one on each side.
+int euler_characteristic(const Cells& cells) {
+  std::map<std::pair<int, int>, int> sides;
+  for (std::size_t f = 0; f + 1 < cells.offsets.size(); ++f) {
+    for (int c = cells.offsets[f]; c < cells.offsets[f + 1]; ++c) {
+      const int next = c + 1 < cells.offsets[f + 1] ? c + 1 : cells.offsets[f];
+      ++sides[{cells.corner_vertices[c], cells.corner_vertices[next]}];
+    }
+  }
+  for (const auto& [ends, count] : sides) {
+    EXPECT_EQ(count, 1);
+    EXPECT_EQ(sides.count({ends.second, ends.first}), 1);
+  }
+  return static_cast<int>(cells.vertices.triangles.size() + cells.tiles.size()) - static_cast<int>(sides.size() / 2);
+}
+
+int even_polygons(const Cells& cells) {
+  int result = 0;
+  for (std::size_t f = 0; f + 1 < cells.offsets.size(); ++f) {
+    const int count = cells.offsets[f + 1] - cells.offsets[f];
+    result += count > 4 && count % 2 == 0;
+  }
+  return result;
+}
+
+TEST_P(Folded, CellsBecomeQuadsAndStayATorus) {
+  Execution execution(1);
+  const Tiled tiled = folded_torus(GetParam(), execution);
+  const auto coordinates = tile_coordinates(tiled.surface, tiled.uv, frame(2, 2), execution);
+  const EdgeNodes nodes = edge_nodes(tiled.surface, coordinates, execution);
+  const Cells simple =
+      simplified(cells(pieces(tiled.surface, coordinates, nodes, Pattern::grid, execution), execution));
+  EXPECT_EQ(euler_characteristic(simple), 0);
+  const Cells quads = in_quads(tiled.surface, simple);
+  EXPECT_EQ(euler_characteristic(quads), 0);
+  EXPECT_GT(even_polygons(simple), 0);
+  EXPECT_LT(even_polygons(quads), even_polygons(simple) / 2);  // some have no diagonal that is no edge yet
+  EXPECT_EQ(quads.corner_points.size(), quads.corner_vertices.size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Folded, testing::Range(0, 10));
