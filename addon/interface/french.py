@@ -81,6 +81,8 @@ WORDS = {
     "Geometry on Tiling": "Géométrie sur le pavage",
     "Lines of Tiling": "Lignes du pavage",
     "Cut along Tiling": "Couper le long du pavage",
+    "Quads": "Quadrilatères",
+    "Holomorphic Quads": "Quadrilatères holomorphes",
     "Levels of Detail": "Niveaux de détail",
     "{} Points": "{} points",
     "Takes about {} s": "Prend environ {} s",

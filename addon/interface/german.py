@@ -81,6 +81,8 @@ WORDS = {
     "Geometry on Tiling": "Geometrie auf Kacheln",
     "Lines of Tiling": "Linien der Kacheln",
     "Cut along Tiling": "Entlang der Kacheln schneiden",
+    "Quads": "Vierecke",
+    "Holomorphic Quads": "Holomorphe Vierecke",
     "Levels of Detail": "Detailstufen",
     "{} Points": "{} Punkte",
     "Takes about {} s": "Dauert etwa {} s",

@@ -9,6 +9,7 @@ from ..operators import (
     elements,
     geometry,
     lod,
+    quads,
     relief,
     texel_operators,
     tools,
@@ -92,6 +93,7 @@ class _ThingsPanel(_Panel):
 
     def draw(self, _context):
         column = self.layout.column(align=True)
+        column.operator(quads.HOLOMORPH_OT_quads.bl_idname, icon="MOD_REMESH")
         column.operator(geometry.HOLOMORPH_OT_geometry.bl_idname, icon="MOD_ARRAY")
         column.operator(geometry.HOLOMORPH_OT_lines.bl_idname, icon="MOD_WIREFRAME")
         column.operator(geometry.HOLOMORPH_OT_cells.bl_idname, icon="MESH_GRID")
@@ -157,16 +159,28 @@ def _panels(name, space):
 _register_panels, _unregister_panels = bpy.utils.register_classes_factory(
     [*_panels("HOLOMORPH_PT_view3d", "VIEW_3D"), *_panels("HOLOMORPH_PT_image", "IMAGE_EDITOR")]
 )
-MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
+
+
+def _draw_object_entry(self, _context):
+    self.layout.separator()
+    self.layout.operator_context = "INVOKE_DEFAULT"
+    self.layout.operator(quads.HOLOMORPH_OT_quads.bl_idname, text="Holomorphic Quads")
+
+
+MENUS = {
+    "VIEW3D_MT_uv_map": _draw_menu_entry,
+    "IMAGE_MT_uvs": _draw_menu_entry,
+    "VIEW3D_MT_object": _draw_object_entry,
+}
 
 
 def register():
     _register_panels()
-    for name in MENUS:
-        getattr(bpy.types, name).append(_draw_menu_entry)
+    for name, draw in MENUS.items():
+        getattr(bpy.types, name).append(draw)
 
 
 def unregister():
-    for name in MENUS:
-        getattr(bpy.types, name).remove(_draw_menu_entry)
+    for name, draw in MENUS.items():
+        getattr(bpy.types, name).remove(draw)
     _unregister_panels()

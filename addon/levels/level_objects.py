@@ -11,7 +11,7 @@ from ..results import report, tags
 from ..results.write import WriteOptions
 from ..results.write import write as write_maps
 from ..scene import mesh_io, stored_dials, targets, uv_maps
-from ..writing import transaction
+from ..writing import transaction, transferred
 from . import transfer
 from .levels import LevelsWork
 
@@ -48,7 +48,7 @@ def write(step, obj, data, work, presentation=Presentation()):
         matrix = obj.matrix_world.copy()
         matrix.translation.x += index * apart
         level_object.matrix_world = matrix
-    _transfer_weights(context, obj, levels)
+    transferred.weights(context, obj, levels, "NEAREST")  # vertices have not moved
     _put_away(context, made, presentation.hidden)
     return made
 
@@ -106,30 +106,6 @@ def _width(obj):
     """Size along X in world space."""
     points = mesh_io.world_points(obj)
     return float(points[:, 0].max() - points[:, 0].min())
-
-
-def _transfer_weights(context, obj, made):
-    """Weights by Blender's own transfer, from a bare object of the same mesh: vertices of levels have not moved, and
-    the nearest vertex is the same one."""
-    if not obj.vertex_groups:
-        return
-    bare = bpy.data.objects.new("Holomorph Weights", obj.data)
-    bare.matrix_world = obj.matrix_world
-    context.scene.collection.objects.link(bare)
-    context.view_layer.update()
-    objects = {"selected_objects": [bare, *made], "selected_editable_objects": [bare, *made]}
-    try:
-        with context.temp_override(object=bare, active_object=bare, **objects):
-            bpy.ops.object.data_transfer(
-                data_type="VGROUP_WEIGHTS",
-                use_create=True,
-                vert_mapping="NEAREST",
-                use_object_transform=False,
-                layers_select_src="ALL",
-                layers_select_dst="NAME",
-            )
-    finally:
-        bpy.data.objects.remove(bare)
 
 
 class Source:

@@ -48,7 +48,7 @@ def write_pieces(step, obj, values, piece, cell):
     piece : a name in `pieces.PIECES`, an object, or a collection
     cell : `pieces.Cell`
     """
-    step.remove(_earlier(obj, PIECES_OF))
+    step.remove(earlier(obj, PIECES_OF))
     made = _object(step, obj, f"{obj.name} Geometry", _points_mesh(obj, values))
     dials = {}
     if isinstance(piece, str):
@@ -67,7 +67,7 @@ def write_pieces(step, obj, values, piece, cell):
 
 def write_wires(step, obj, values):
     """Makes a tube along each of the lines of `wires.joined`. Returns their object."""
-    step.remove(_earlier(obj, WIRES_OF))
+    step.remove(earlier(obj, WIRES_OF))
     kept = {name: array for name, array in values.items() if name not in ("edges", "side", "count")}
     made = _object(step, obj, f"{obj.name} Lines", _points_mesh(obj, kept, values["edges"]))
     radius = wires.THICKNESS * float(np.median(values["side"]))
@@ -78,7 +78,7 @@ def write_wires(step, obj, values):
 
 def write_cells(step, obj, cut):
     """Makes an object of the polygons of a `cut.CutMesh`, and returns it."""
-    step.remove(_earlier(obj, CELLS_OF))
+    step.remove(earlier(obj, CELLS_OF))
     cut = cut.mirrored() if is_mirrored(obj) else cut
     polygons = mesh_io.Polygons(_in_world(obj, cut.vertices), cut.corner_vertices, cut.face_offsets, None)
     mesh = mesh_io.new_mesh(f"{obj.name} Cells", polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
@@ -94,7 +94,7 @@ def write_cells(step, obj, cut):
 
 def write_relief(step, obj, relief):
     """Makes an object of the triangles of a `holomorph.Relief`, with the materials of the surface, and returns it."""
-    step.remove(_earlier(obj, RELIEF_OF))
+    step.remove(earlier(obj, RELIEF_OF))
     triangles = mesh_io.Polygons(_in_world(obj, relief.vertices), relief.corner_vertices, relief.face_offsets, None)
     mesh = mesh_io.new_mesh(f"{obj.name} Relief", triangles.vertices, triangles.corner_vertices, triangles.face_offsets)
     uv_maps.write_map(mesh, triangles, uv_maps.MAIN_MAP, relief.uv.astype(np.float32))
@@ -107,7 +107,7 @@ def write_relief(step, obj, relief):
     return made
 
 
-def _earlier(obj, kind):
+def earlier(obj, kind):
     """What an earlier run made, without pieces that a copy of its points needs."""
     found = tags.find(kind, obj)
     users = bpy.data.user_map(subset=set(found))

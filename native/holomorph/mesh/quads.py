@@ -38,6 +38,7 @@ class Quads(Value):
     uv : (#C, 2) in which each quad is a unit square with whole corners, continued across seams in a polygon
     places : (#V, 3) vertices of the surface as given: those of the triangle that a vertex lies in
     weights : (#V, 3) barycentric coordinates there
+    faces : (#V,) polygon of the surface that has this triangle
     lines : of each part, what its rows end at or run along: "whole", "free", "mirror" or "none"; "" where it is `kept`
     kept : {part: why it has no quads, and keeps its own polygons}, by their indices in `Surface.components`
     """
@@ -48,6 +49,7 @@ class Quads(Value):
     uv: Reals
     places: Integers
     weights: Reals
+    faces: Integers
     lines: tuple[str, ...]
     kept: Mapping[int, str]
 
@@ -116,11 +118,12 @@ def quads(
 
 
 def _found(part, found):
-    """(positions, corner vertices, numbers of corners, uv, places, weights, lines) of the core's quads."""
+    """(positions, corner vertices, numbers of corners, uv, places, weights, faces, lines) of the core's quads."""
     cells = found.cells
     corners, weights = part.triangles[cells.triangles], cells.barycentric
     positions, places = np.einsum("ni,nij->nj", weights, part.vertices[corners]), part.vertex_index[corners]
-    return positions, cells.corner_vertices, np.diff(cells.offsets), cells.corner_points, places, weights, found.lines
+    mesh = positions, cells.corner_vertices, np.diff(cells.offsets), cells.corner_points
+    return *mesh, places, weights, part.face_index[part.triangle_faces[cells.triangles]], found.lines
 
 
 def _as_it_is(part):
@@ -129,12 +132,14 @@ def _as_it_is(part):
     weights = np.zeros(places.shape)
     weights[:, 0] = 1
     uv = np.zeros((len(part.corner_vertices), 2))
-    return part.vertices, part.corner_vertices, np.diff(part.face_offsets), uv, places, weights, ""
+    faces, sizes = np.zeros(len(places), np.int64), np.diff(part.face_offsets)
+    faces[part.corner_vertices] = np.repeat(part.face_index, sizes)
+    return part.vertices, part.corner_vertices, sizes, uv, places, weights, faces, ""
 
 
 def _joined(parts, kept):
     """The `Quads` of all parts."""
-    positions, corners, sizes, uv, places, weights, lines = zip(*parts)
+    positions, corners, sizes, uv, places, weights, faces, lines = zip(*parts)
     begin = np.cumsum([0, *map(len, positions[:-1])])
     values = {
         "positions": np.concatenate(positions),
@@ -143,5 +148,6 @@ def _joined(parts, kept):
         "uv": np.concatenate(uv),
         "places": np.concatenate(places),
         "weights": np.concatenate(weights),
+        "faces": np.concatenate(faces),
     }
     return Quads(**{name: arrays.frozen(array) for name, array in values.items()}, lines=lines, kept=kept)
