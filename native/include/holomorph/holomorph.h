@@ -24,6 +24,7 @@
 #include "base/errors.h"
 #include "base/execution.h"
 #include "choice/automatic_map.h"
+#include "choice/quads.h"
 #include "flat/dirichlet_problem.h"
 #include "flat/island_search.h"
 #include "flat/rectangle.h"

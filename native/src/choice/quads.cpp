@@ -14,8 +14,9 @@ namespace {
 constexpr int kPerTile = 4;  // all cones lie at corners of two by two
 constexpr int kRounds = 6;   // numbers of tiles, until there are about as many faces as are wanted
 constexpr double kNearNumber = 0.03, kFolded = 0.05, kOther = 1.02, kMapping = 0.8;
-constexpr double kMostFlipped = 1e-3;  // of the area: rows that flip more are let go
-constexpr double kMostOff = 1.5;       // times as many faces as are wanted: they are folded over each other
+// Parts of the area: rows that flip more are let go, and no other number of tiles is tried with them.
+constexpr double kMostFlipped = 1e-3, kHopeless = 5e-3;
+constexpr double kMostOff = 1.5;  // times as many faces as are wanted: they are folded over each other
 
 // The quads that a map has.
 double count_of(const Part& part, const SeamlessMap& map) {
@@ -44,6 +45,7 @@ SeamlessPointer map_of(Tilers& tilers, const QuadOptions& asked, tiling::Rows ro
     const double count = count_of(*tilers.part(), *made), off = std::abs(std::log(count / asked.faces));
     const double own = off + (made->quality.lost_part > 0 ? kFolded : 0);
     if (own < least) least = own, best = made;
+    if (made->quality.lost_part > kHopeless) break;
     if (off <= kNearNumber) {  // but folded: another number may not be
       options.tiles *= kOther;
       continue;
