@@ -64,8 +64,8 @@ class HOLOMORPH_OT_quads(WorkOperator, bpy.types.Operator):
         if self._target.has_changed(time_has_passed):
             return self.refuse(f"{name}: it changed while its quads were made; please run it again")
         made = quads.write(step, self._target.find(), work.made)
-        for part, reason in work.made.kept.items():
-            self.report({"WARNING"}, f"{name}: part {part + 1} keeps its faces: {reason}")
+        for sentence in work.made.notes:
+            self.report({"WARNING"}, f"{name}: {sentence}")
         self.report({"INFO"}, f"{made.name}: {work.made.sentence}")
         return {"FINISHED"}
 

@@ -28,7 +28,7 @@ def quads(arguments):
         Surface.from_polygons(*mesh, strict=False).write(options.output, made.uv)
     except (Error, ValueError, OSError) as error:
         return failed(EXIT_REFUSED, error)
-    warn(options.mesh, (f"part {part} keeps its faces: {reason}" for part, reason in made.kept.items()))
+    warn(options.mesh, made.notes)
     tell(f"{shown(str(options.mesh))}: {made.sentence}\n")
     return 0
 

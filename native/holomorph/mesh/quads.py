@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -66,6 +67,14 @@ class Quads(Value):
         """What was made, for people."""
         return ", ".join(self._facts())
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Sentences about the parts that are `kept`, one for each reason."""
+        return tuple(
+            f"{counted(count, 'part')} {'keeps its' if count == 1 else 'keep their'} own faces: {reason}"
+            for reason, count in Counter(self.kept.values()).items()
+        )
+
     def of(self, values: ArrayLike) -> NDArray[Any]:
         """(#V, ...) values at the vertices, of values at the vertices of the surface as given, such as its positions in
         another pose."""
@@ -106,7 +115,7 @@ def quads(
         done += share
         try:
             if faces * share < FEWEST:
-                raise TopologyError("it is so small that fewer than six quads would lie on it: take more faces")
+                raise TopologyError("fewer than six quads would lie there: take more faces")
             asked = faces * share, lines, np.asarray(edges_on_part(part, chosen), np.int32)
             made.append(_found(part, part._tilers.quads(*asked, **options, progress=own)))
         except (InvalidMesh, TopologyError, SolverError) as error:
