@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "base/constants.h"
@@ -16,6 +17,7 @@ constexpr int kRounds = 6;   // numbers of tiles, until there are about as many 
 constexpr double kNearNumber = 0.03, kFolded = 0.05, kOther = 1.02, kMapping = 0.8;
 // Parts of the area: rows that flip more are let go, and no other number of tiles is tried with them.
 constexpr double kMostFlipped = 1e-3, kHopeless = 5e-3;
+constexpr int kMostLoops = 50;    // whole numbers around more take minutes
 constexpr double kMostOff = 1.5;  // times as many faces as are wanted: they are folded over each other
 
 // The quads that a map has.
@@ -62,6 +64,12 @@ SeamlessPointer map_of(Tilers& tilers, const QuadOptions& asked, tiling::Rows ro
 
 Quads quads(Tilers& tilers, const QuadOptions& options, Execution& execution) {
   using tiling::Rows;
+  const mesh::TopologicalType& type = tilers.part()->type;
+  const int loops = 2 * type.genus + std::max(type.boundary_count - 1, 0);
+  if (loops > kMostLoops) {
+    throw TopologyError("it has " + std::to_string(loops) + " loops around handles and holes, which take long: quads " +
+                        "are made of parts with up to " + std::to_string(kMostLoops));
+  }
   Quads result;
   // Rows that are asked for, and those that ask for less.
   for (const Rows rows : {options.lines, Rows::kFree, Rows::kNone}) {

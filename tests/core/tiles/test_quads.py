@@ -114,6 +114,11 @@ def test_wrong_options_are_refused_in_a_sentence(options, error, message):
         surface_of(families.torus(24, 16, jitter=0.1)).quads(**{"faces": 500} | options)
 
 
+def test_hundreds_of_loops_are_refused_at_once():
+    with pytest.raises(TopologyError, match="it has 119 loops around handles and holes, which take long"):
+        surface_of(families.punched(families.geodesic_sphere(16), 120)).quads()
+
+
 def test_surfaces_without_positions_are_refused():
     with pytest.raises(TopologyError, match="positions"):
         Surface.from_edge_lengths([(0, 1, 2), (0, 2, 1)], [(1, 1, 1)] * 2).quads()
