@@ -122,7 +122,7 @@ def quads(
             kept[k] = str(error)
             made.append(_as_it_is(part))
     if len(kept) == len(made):
-        raise TopologyError(f"no part can have quads: {kept[0]}")
+        raise TopologyError(f"no part can have quads: {kept[int(shares.argmax())]}")  # the largest one
     return _joined(made, kept)
 
 
