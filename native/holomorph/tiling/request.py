@@ -157,7 +157,7 @@ class Request:
             if cuts[name] != 0 and cuts[name] <= least:
                 raise ValueError(f"{name} is {quoted(getattr(self, name))}; a number above {least} is needed, or 0")
         return _native.Request(
-            part, core, **options, **cuts, seams=own_edges(surface, only_component(surface), self.seams, "seams")
+            part, core, **options, **cuts, seams=_own_edges(surface, only_component(surface), self.seams, "seams")
         )
 
     def tiling(self, surface: Surface) -> _native.TileOptions:
@@ -190,7 +190,7 @@ class Request:
             moves=list(zip(moves, _own_poles(surface, component, list(moves.values())))),
             turns=self.turns,
             lines=lines,
-            marked=own_edges(surface, component, self.marked),
+            marked=_own_edges(surface, component, self.marked),
             missing=missing,
         )
 
@@ -234,7 +234,7 @@ def _own_allowed(surface, component, allowed):
     return own.tolist()
 
 
-def own_edges(surface, component, ends, name="marked"):
+def _own_edges(surface, component, ends, name="marked"):
     if ends is None:
         return NO_EDGES
     ends = arrays.integer(ends, name, 2, (2,))

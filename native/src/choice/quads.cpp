@@ -72,15 +72,16 @@ Quads quads(Tilers& tilers, const QuadOptions& options, Execution& execution) {
   }
   Quads result;
   // Rows that are asked for, and those that ask for less.
-  for (const Rows rows : {options.lines, Rows::kFree, Rows::kNone}) {
-    const bool is_first = rows == options.lines;
-    if (!is_first && (options.lines == Rows::kMirror || options.lines == Rows::kNone)) break;
+  std::vector<Rows> all{options.lines};
+  if (options.lines == Rows::kWhole) all.push_back(Rows::kFree);
+  if (options.lines == Rows::kWhole || options.lines == Rows::kFree) all.push_back(Rows::kNone);
+  for (const Rows rows : all) {
     const auto make = [&] {
       return nested(execution, 0, kMapping, [&] { return map_of(tilers, options, rows, execution); });
     };
-    const SeamlessPointer made = rows == Rows::kNone || options.lines == Rows::kMirror
-                                     ? make()
-                                     : unless_refused(make, [](const Error&) { return SeamlessPointer(); });
+    const bool is_needed = rows == all.back() && !result.map;
+    const SeamlessPointer made =
+        is_needed ? make() : unless_refused(make, [](const Error&) { return SeamlessPointer(); });
     if (made && (!result.map || made->quality.lost_part < result.map->quality.lost_part)) result.map = made;
     if (result.map && result.map->quality.lost_part <= kMostFlipped) break;
   }
